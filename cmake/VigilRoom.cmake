@@ -1,0 +1,41 @@
+# vigil_room(NAME [SOURCES ...] [TESTS ...] [DEPENDS ...] [PRIVATE_DEPENDS ...] [TEST_DEPENDS ...])
+#
+# One room of the folder tree: library vigil::NAME from SOURCES (an interface library when there
+# are none) and, from TESTS, one test program NAME_test that ctest runs under the label "quick".
+function(vigil_room name)
+  cmake_parse_arguments(PARSE_ARGV 1 ROOM "" "" "SOURCES;TESTS;DEPENDS;PRIVATE_DEPENDS;TEST_DEPENDS")
+  if(ROOM_UNPARSED_ARGUMENTS)
+    message(FATAL_ERROR "vigil_room(${name}): unknown arguments ${ROOM_UNPARSED_ARGUMENTS}")
+  endif()
+  if(ROOM_SOURCES)
+    add_library(vigil_${name} STATIC ${ROOM_SOURCES})
+    target_link_libraries(vigil_${name} PUBLIC vigil::compile ${ROOM_DEPENDS} PRIVATE ${ROOM_PRIVATE_DEPENDS})
+  else()
+    add_library(vigil_${name} INTERFACE)
+    target_link_libraries(vigil_${name} INTERFACE vigil::compile ${ROOM_DEPENDS})
+  endif()
+  add_library(vigil::${name} ALIAS vigil_${name})
+  if(ROOM_TESTS AND VIGIL_BUILD_TESTS)
+    vigil_test(${name}_test SOURCES ${ROOM_TESTS} DEPENDS vigil::${name} ${ROOM_TEST_DEPENDS})
+  endif()
+endfunction()
+
+# vigil_test(NAME SOURCES ... [DEPENDS ...] [LABEL quick|full] [TIMEOUT seconds])
+#
+# A GoogleTest program that ctest runs as one test.
+function(vigil_test name)
+  cmake_parse_arguments(PARSE_ARGV 1 TEST "" "LABEL;TIMEOUT" "SOURCES;DEPENDS")
+  if(NOT TEST_LABEL)
+    set(TEST_LABEL quick)
+  endif()
+  if(NOT TEST_TIMEOUT)
+    set(TEST_TIMEOUT 300)
+  endif()
+  add_executable(${name} ${TEST_SOURCES})
+  target_link_libraries(${name} PRIVATE ${TEST_DEPENDS} GTest::gtest GTest::gtest_main)
+  target_compile_definitions(${name} PRIVATE
+    VIGIL_REFERENCE_DIR="${PROJECT_SOURCE_DIR}/vigil/testing/reference"
+    VIGIL_MISSIONS_DIR="${PROJECT_SOURCE_DIR}/missions")
+  add_test(NAME ${name} COMMAND ${name} --gtest_brief=1)
+  set_tests_properties(${name} PROPERTIES LABELS ${TEST_LABEL} TIMEOUT ${TEST_TIMEOUT})
+endfunction()
