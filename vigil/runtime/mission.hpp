@@ -1,0 +1,189 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "vigil/core/ergodic/coverage_statistics.hpp"
+#include "vigil/core/field/field.hpp"
+#include "vigil/core/safety/filter.hpp"
+
+/// A mission as its file says it: everything adjustable, once. Points are in the WORLD frame here (operators' and
+/// trackers'); mission_setup.hpp turns them into the field-frame values of core/. Units stand in the names. Defaults that
+/// depend on other values are `optional` here and resolved in mission_setup.hpp.
+namespace vigil::runtime {
+
+struct FieldSection {
+  Vec2 size_m = Vec2::Zero();    ///< L1, L2
+  Vec2 origin_m = Vec2::Zero();  ///< the field's corner (0, 0) in the world
+  double yaw_rad = 0.0;          ///< from the world's x axis to the field's, counter-clockwise
+};
+
+struct ClusterEntry {
+  std::string name;
+  std::vector<Vec2> points_m;  ///< world frame, at least one
+  double weight = 1.0;
+  std::optional<double> revisit_s;  ///< deadline: no part of it unseen for longer
+};
+
+struct AreaEntry {
+  std::string name;
+  std::vector<Vec2> outline_m;  ///< world frame, a simple polygon
+  double weight = 5.0;          ///< counts like that many target points
+  double soft_edge_m = 0.0;
+  std::optional<double> revisit_s;
+};
+
+enum class OutsideField : std::uint8_t { kRefuse, kClamp };
+
+struct TargetsSection {
+  std::vector<ClusterEntry> clusters;
+  std::vector<AreaEntry> areas;
+  std::optional<double> sigma_min_m;  ///< default 5 % of the field's shorter side
+  double uniform_floor = 0.0;         ///< share of attention spread evenly, [0, 1]
+  OutsideField outside_field = OutsideField::kRefuse;
+};
+
+struct NoFlyEntry {
+  std::string name;
+  std::vector<Vec2> outline_m;  ///< world frame, a simple polygon
+};
+
+struct DroneEntry {
+  std::string id;
+  Vec2 start_m = Vec2::Zero();  ///< world frame
+};
+
+/// Instead of `drones`: so many drones on a regular grid inside the field, ids prefix1, prefix2, ...
+struct DroneGridSection {
+  int count = 0;
+  std::string prefix = "d";
+  std::optional<double> spacing_m;  ///< default: as wide as the field allows
+};
+
+enum class ControllerKind : std::uint8_t { kGradient };
+
+struct ControlSection {
+  double rate_hz = 50.0;
+  double speed_limit_m_s = 0.0;  ///< u_max
+  ControllerKind controller = ControllerKind::kGradient;
+  double fade = 0.02;            ///< delta of the faded gradient, in units of gradient_scale(); 0: (9) to the letter
+  int basis_max_index = 10;      ///< K
+  double basis_smoothness = 1.5; ///< s of lambda_k
+  ergodic::Accounting accounting = ergodic::Accounting::kDroneTime;
+  std::optional<double> memory_s;  ///< none: a plain average
+};
+
+enum class Obstacles : std::uint8_t {
+  kAirborne,   ///< whatever is in the air repels the others, active or not
+  kActiveOnly  ///< the paper: a drone that is not active is no obstacle, wherever it is
+};
+
+struct SafetySection {
+  safety::BarrierKind barrier = safety::BarrierKind::kLagAware;
+  double separation_m = 0.0;                 ///< R_s
+  std::optional<double> contact_distance_m;  ///< default: half of R_s
+  double wall_distance_m = 0.0;              ///< R_wall
+  std::optional<double> no_fly_buffer_m;     ///< default: R_wall
+  std::optional<double> pair_gain;           ///< default 10 for `paper`, 5 for `lag_aware`
+  std::optional<double> wall_gain;
+  double lag_s = 0.0;
+  double margin_m = 0.0;
+  std::optional<double> sensing_range_m;  ///< default derived
+  std::optional<double> wall_range_m;     ///< R_threat, default derived
+  Obstacles obstacles = Obstacles::kAirborne;
+};
+
+/// When a drone stops counting as flying normally (12).
+struct HealthSection {
+  double tracking_timeout_s = 0.5;
+  double link_timeout_s = 1.0;
+  double battery_reserve = 0.2;   ///< share of a full battery, [0, 1]
+  double recovery_s = 0.5;        ///< healthy for so long before it is active again
+  double landed_height_m = 0.05;  ///< below this a drone is down: no obstacle any more
+};
+
+struct SensorSection {
+  std::optional<double> footprint_radius_m;  ///< a place within it of a drone is seen; default 10 % of the shorter side
+};
+
+enum class VehicleModel : std::uint8_t { kIdeal, kFirstOrderLag };
+
+struct VehicleSection {
+  VehicleModel model = VehicleModel::kIdeal;
+  double lag_s = 0.0;                                ///< first_order_lag: v' = (u - v)/lag
+  std::optional<double> acceleration_limit_m_s2;     ///< first_order_lag: |v'| at most this; none: no limit
+  double command_delay_s = 0.0;                      ///< from the controller's decision to the vehicle's reaction
+  double altitude_m = 1.0;                           ///< where it flies
+  double take_off_s = 2.0;                           ///< from the ground to there
+  double landing_s = 2.0;                            ///< from there to the ground
+  double emergency_s = 0.5;                          ///< from there to the ground with the motors off
+};
+
+struct TrackerSection {
+  double noise_m = 0.0;              ///< standard deviation per axis
+  double velocity_noise_m_s = 0.0;   ///< standard deviation per axis
+  double delay_s = 0.0;              ///< age of a measurement when it arrives
+  double dropouts_per_min = 0.0;     ///< per drone, on average
+  double dropout_s = 0.5;            ///< mean length of one
+};
+
+enum class EventKind : std::uint8_t {
+  kTakeOff,        ///< operator: take off
+  kLand,           ///< operator: land where it is
+  kHold,           ///< operator: hover, out of coverage
+  kResume,         ///< operator: back to coverage after hold or mark_failed
+  kMarkFailed,     ///< operator: declare it failed
+  kEmergencyStop,  ///< safety pilot: motors off
+  kFail,           ///< the vehicle fails in the air: ignores commands, hovers where it stops
+  kOverride,       ///< a pilot takes it over and flies velocity_m_s
+  kGiveBack,       ///< the pilot gives it back
+  kLoseTracking,   ///< the tracker does not see it for for_s
+  kAddTarget,      ///< cluster (made where new), point_m
+  kMoveTarget,     ///< cluster, target (counted from 1), point_m
+  kRemoveTarget,   ///< cluster, target (counted from 1); the last one removes the cluster
+  kSetWeight,      ///< cluster or area, weight
+  kStartAfresh     ///< coverage statistics are forgotten
+};
+
+struct EventEntry {
+  double at_s = 0.0;
+  EventKind what = EventKind::kLand;
+  std::string drone;  ///< an id, or "all"; for those that concern drones
+  std::string cluster;
+  int target = 0;
+  Vec2 point_m = Vec2::Zero();     ///< world frame
+  Vec2 velocity_m_s = Vec2::Zero();  ///< world frame
+  double weight = 0.0;
+  double for_s = 0.0;
+};
+
+enum class StartState : std::uint8_t { kFlying, kGrounded };
+
+struct SimulationSection {
+  double duration_s = 120.0;
+  std::uint64_t seed = 1;
+  StartState start = StartState::kFlying;  ///< grounded: an operator's take_off event brings them up
+  VehicleSection vehicle;
+  TrackerSection tracker;
+  std::vector<EventEntry> events;  ///< in the order of at_s
+};
+
+struct Mission {
+  int format = 1;
+  std::string name;
+  std::string description;
+  FieldSection field;
+  TargetsSection targets;
+  std::vector<NoFlyEntry> no_fly;
+  std::vector<DroneEntry> drones;  ///< resolved from drone_grid where that is given
+  std::optional<DroneGridSection> drone_grid;
+  ControlSection control;
+  SafetySection safety;
+  HealthSection health;
+  SensorSection sensor;
+  SimulationSection simulation;
+};
+
+}  // namespace vigil::runtime
