@@ -17,7 +17,8 @@ struct Field {
 };
 
 /// The rigid transform between the world frame W (operators, trackers) and the field frame F:
-/// p_W = origin_W + R(yaw) p_F, with the yaw counter-clockwise. The paper's "moved from negative space to non-negative".
+/// p_W = origin_W + R(yaw) p_F, with the yaw counter-clockwise. The paper's "moved from negative space to
+/// non-negative".
 struct WorldFrame {
   Vec2 origin_W = Vec2::Zero();  ///< where F's corner (0, 0) lies in the world, metres
   double yaw_rad = 0.0;          ///< from the world's x axis to the field's
