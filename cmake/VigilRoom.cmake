@@ -22,7 +22,7 @@ endfunction()
 
 # vigil_test(NAME SOURCES ... [DEPENDS ...] [LABEL quick|full] [TIMEOUT seconds])
 #
-# A GoogleTest program that ctest runs as one test.
+# A GoogleTest program that ctest runs as one test. `quick_tests` and `full_tests` build those of a label.
 function(vigil_test name)
   cmake_parse_arguments(PARSE_ARGV 1 TEST "" "LABEL;TIMEOUT" "SOURCES;DEPENDS")
   if(NOT TEST_LABEL)
@@ -38,4 +38,22 @@ function(vigil_test name)
     VIGIL_MISSIONS_DIR="${PROJECT_SOURCE_DIR}/missions")
   add_test(NAME ${name} COMMAND ${name} --gtest_brief=1)
   set_tests_properties(${name} PROPERTIES LABELS ${TEST_LABEL} TIMEOUT ${TEST_TIMEOUT})
+  add_dependencies(${TEST_LABEL}_tests ${name})
 endfunction()
+
+# vigil_cli_test(NAME COMMAND ... [TIMEOUT seconds])
+#
+# A command that ctest runs under the label "cli", in the release preset of `./test`. The program's path: $<TARGET_FILE:vigil>.
+function(vigil_cli_test name)
+  cmake_parse_arguments(PARSE_ARGV 1 TEST "" "TIMEOUT" "COMMAND")
+  if(NOT TEST_TIMEOUT)
+    set(TEST_TIMEOUT 300)
+  endif()
+  add_test(NAME ${name} COMMAND ${TEST_COMMAND})
+  set_tests_properties(${name} PROPERTIES LABELS cli TIMEOUT ${TEST_TIMEOUT})
+endfunction()
+
+if(VIGIL_BUILD_TESTS)
+  add_custom_target(quick_tests)
+  add_custom_target(full_tests)
+endif()
