@@ -18,6 +18,7 @@ struct FieldSection {
   Vec2 size_m = Vec2::Zero();    ///< L1, L2
   Vec2 origin_m = Vec2::Zero();  ///< the field's corner (0, 0) in the world
   double yaw_rad = 0.0;          ///< from the world's x axis to the field's, counter-clockwise
+  friend bool operator==(const FieldSection&, const FieldSection&) = default;
 };
 
 struct ClusterEntry {
@@ -25,6 +26,7 @@ struct ClusterEntry {
   std::vector<Vec2> points_m;  ///< world frame, at least one
   double weight = 1.0;
   std::optional<double> revisit_s;  ///< deadline: no part of it unseen for longer
+  friend bool operator==(const ClusterEntry&, const ClusterEntry&) = default;
 };
 
 struct AreaEntry {
@@ -33,6 +35,7 @@ struct AreaEntry {
   double weight = 5.0;          ///< counts like that many target points
   double soft_edge_m = 0.0;
   std::optional<double> revisit_s;
+  friend bool operator==(const AreaEntry&, const AreaEntry&) = default;
 };
 
 enum class OutsideField : std::uint8_t { kRefuse, kClamp };
@@ -43,16 +46,19 @@ struct TargetsSection {
   std::optional<double> sigma_min_m;  ///< default 5 % of the field's shorter side
   double uniform_floor = 0.0;         ///< share of attention spread evenly, [0, 1]
   OutsideField outside_field = OutsideField::kRefuse;
+  friend bool operator==(const TargetsSection&, const TargetsSection&) = default;
 };
 
 struct NoFlyEntry {
   std::string name;
   std::vector<Vec2> outline_m;  ///< world frame, a simple polygon
+  friend bool operator==(const NoFlyEntry&, const NoFlyEntry&) = default;
 };
 
 struct DroneEntry {
   std::string id;
   Vec2 start_m = Vec2::Zero();  ///< world frame
+  friend bool operator==(const DroneEntry&, const DroneEntry&) = default;
 };
 
 /// Instead of `drones`: so many drones on a regular grid inside the field, ids prefix1, prefix2, ...
@@ -60,6 +66,7 @@ struct DroneGridSection {
   int count = 0;
   std::string prefix = "d";
   std::optional<double> spacing_m;  ///< default: as wide as the field allows
+  friend bool operator==(const DroneGridSection&, const DroneGridSection&) = default;
 };
 
 enum class ControllerKind : std::uint8_t { kGradient };
@@ -73,6 +80,7 @@ struct ControlSection {
   double basis_smoothness = 1.5; ///< s of lambda_k
   ergodic::Accounting accounting = ergodic::Accounting::kDroneTime;
   std::optional<double> memory_s;  ///< none: a plain average
+  friend bool operator==(const ControlSection&, const ControlSection&) = default;
 };
 
 enum class Obstacles : std::uint8_t {
@@ -93,6 +101,7 @@ struct SafetySection {
   std::optional<double> sensing_range_m;  ///< default derived
   std::optional<double> wall_range_m;     ///< R_threat, default derived
   Obstacles obstacles = Obstacles::kAirborne;
+  friend bool operator==(const SafetySection&, const SafetySection&) = default;
 };
 
 /// When a drone stops counting as flying normally (12).
@@ -102,10 +111,12 @@ struct HealthSection {
   double battery_reserve = 0.2;   ///< share of a full battery, [0, 1]
   double recovery_s = 0.5;        ///< healthy for so long before it is active again
   double landed_height_m = 0.05;  ///< below this a drone is down: no obstacle any more
+  friend bool operator==(const HealthSection&, const HealthSection&) = default;
 };
 
 struct SensorSection {
   std::optional<double> footprint_radius_m;  ///< a place within it of a drone is seen; default 10 % of the shorter side
+  friend bool operator==(const SensorSection&, const SensorSection&) = default;
 };
 
 enum class VehicleModel : std::uint8_t { kIdeal, kFirstOrderLag };
@@ -119,6 +130,7 @@ struct VehicleSection {
   double take_off_s = 2.0;                           ///< from the ground to there
   double landing_s = 2.0;                            ///< from there to the ground
   double emergency_s = 0.5;                          ///< from there to the ground with the motors off
+  friend bool operator==(const VehicleSection&, const VehicleSection&) = default;
 };
 
 struct TrackerSection {
@@ -127,6 +139,7 @@ struct TrackerSection {
   double delay_s = 0.0;              ///< age of a measurement when it arrives
   double dropouts_per_min = 0.0;     ///< per drone, on average
   double dropout_s = 0.5;            ///< mean length of one
+  friend bool operator==(const TrackerSection&, const TrackerSection&) = default;
 };
 
 enum class EventKind : std::uint8_t {
@@ -157,6 +170,7 @@ struct EventEntry {
   Vec2 velocity_m_s = Vec2::Zero();  ///< world frame
   double weight = 0.0;
   double for_s = 0.0;
+  friend bool operator==(const EventEntry&, const EventEntry&) = default;
 };
 
 enum class StartState : std::uint8_t { kFlying, kGrounded };
@@ -168,6 +182,7 @@ struct SimulationSection {
   VehicleSection vehicle;
   TrackerSection tracker;
   std::vector<EventEntry> events;  ///< in the order of at_s
+  friend bool operator==(const SimulationSection&, const SimulationSection&) = default;
 };
 
 struct Mission {
@@ -184,6 +199,7 @@ struct Mission {
   HealthSection health;
   SensorSection sensor;
   SimulationSection simulation;
+  friend bool operator==(const Mission&, const Mission&) = default;
 };
 
 }  // namespace vigil::runtime

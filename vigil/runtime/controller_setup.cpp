@@ -1,0 +1,51 @@
+#include "vigil/runtime/controller_setup.hpp"
+
+#include "vigil/core/field/density.hpp"
+#include "vigil/runtime/mission_setup.hpp"
+
+namespace vigil::runtime {
+namespace {
+
+swarm::HealthParameters health_parameters(const HealthSection& health) {
+  return {.tracking_timeout_s = health.tracking_timeout_s,
+          .link_timeout_s = health.link_timeout_s,
+          .battery_reserve = health.battery_reserve,
+          .recovery_s = health.recovery_s,
+          .landed_height_m = health.landed_height_m};
+}
+
+}  // namespace
+
+swarm::SwarmParameters swarm_parameters(const Mission& mission, swarm::Intent first_intent) {
+  swarm::SwarmParameters parameters;
+  parameters.field = field_of(mission);
+  parameters.drones = mission.drones.size();
+  parameters.dt_s = 1.0 / mission.control.rate_hz;
+  parameters.basis_max_index = mission.control.basis_max_index;
+  parameters.basis_smoothness = mission.control.basis_smoothness;
+  parameters.accounting = mission.control.accounting;
+  parameters.memory_s = mission.control.memory_s;
+  parameters.fade = mission.control.fade;
+  parameters.barrier = barrier_parameters(mission);
+  parameters.only_active_are_obstacles = mission.safety.obstacles == Obstacles::kActiveOnly;
+  parameters.health = health_parameters(mission.health);
+  parameters.first_intent = first_intent;
+  return parameters;
+}
+
+std::shared_ptr<const swarm::CoverageTarget> coverage_target(const Mission& mission, const ergodic::Basis& basis) {
+  const field::Importance map = importance(mission);
+  auto target = std::make_shared<swarm::CoverageTarget>();
+  for (const field::Polygon& polygon : map.no_fly) {
+    const std::vector<field::Segment> edges = field::edges(polygon);
+    target->no_fly.insert(target->no_fly.end(), edges.begin(), edges.end());
+  }
+  const field::GridShape shape = field::grid_shape(basis.field(), map, basis.max_index());
+  if (const auto density = field::rasterise(basis.field(), map, shape)) {
+    target->phi_k = ergodic::target_coefficients(basis, *density);
+    target->has_targets = true;
+  }
+  return target;
+}
+
+}  // namespace vigil::runtime

@@ -1,0 +1,83 @@
+#include "vigil/runtime/flight_audit.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace vigil::runtime {
+namespace {
+
+constexpr double kRounding = 1e-9;
+
+double wall_distance(const field::Field& field, const Vec2& p) {
+  return std::min({p.x(), field.length_x - p.x(), p.y(), field.length_y - p.y()});
+}
+
+void lower(double& least, double value) { least = std::min(least, value); }
+
+}  // namespace
+
+FlightAudit::FlightAudit(AuditLimits limits, std::size_t drones) : limits_(std::move(limits)) {
+  airborne_.reserve(drones);
+}
+
+/// Sweeps from left to right; a pair farther apart in x than both R_s and the least distances so far changes nothing.
+void FlightAudit::judge_pairs(std::span<const TruthSample> truth, const swarm::Snapshot& snapshot,
+                              Clearances& now) noexcept {
+  const auto x = [&](std::size_t drone) { return truth[drone].position.x(); };
+  std::sort(airborne_.begin(), airborne_.end(), [&](std::size_t a, std::size_t b) { return x(a) < x(b); });
+  for (std::size_t i = 0; i < airborne_.size(); ++i) {
+    for (std::size_t j = i + 1; j < airborne_.size(); ++j) {
+      const std::size_t a = airborne_[i];
+      const std::size_t b = airborne_[j];
+      if (x(b) - x(a) > std::max(limits_.separation_m, now.active_pair_m)) break;
+      const double distance = (truth[a].position - truth[b].position).norm();
+      lower(now.airborne_pair_m, distance);
+      const bool both_active = snapshot.drones[a].activity == swarm::Activity::kActive &&
+                               snapshot.drones[b].activity == swarm::Activity::kActive;
+      if (both_active) lower(now.active_pair_m, distance);
+      if (distance < limits_.separation_m - kRounding) ++totals_.separation_violations;
+    }
+  }
+}
+
+void FlightAudit::judge_places(std::span<const TruthSample> truth, Clearances& now) noexcept {
+  for (const std::size_t drone : airborne_) {
+    const Vec2& p = truth[drone].position;
+    const double wall = wall_distance(limits_.field, p);
+    lower(now.wall_m, wall);
+    if (wall < limits_.wall_distance_m - kRounding) ++totals_.wall_violations;
+    double no_fly = std::numeric_limits<double>::infinity();
+    for (const field::Polygon& polygon : limits_.no_fly) lower(no_fly, field::signed_distance(polygon, p));
+    lower(now.no_fly_m, no_fly);
+    if (no_fly < limits_.no_fly_buffer_m - kRounding) ++totals_.no_fly_violations;
+  }
+}
+
+void FlightAudit::judge_speeds(std::span<const TruthSample> truth, const swarm::Snapshot& snapshot) noexcept {
+  for (const std::size_t drone : airborne_) {
+    if (snapshot.drones[drone].order.action != swarm::Action::kVelocity) continue;
+    const double speed = truth[drone].velocity.norm();
+    totals_.max_speed_m_s = std::max(totals_.max_speed_m_s, speed);
+    if (speed > limits_.speed_limit_m_s + kRounding) ++totals_.speed_violations;
+  }
+}
+
+Clearances FlightAudit::judge(std::span<const TruthSample> truth, const swarm::Snapshot& snapshot) noexcept {
+  airborne_.clear();
+  for (std::size_t i = 0; i < truth.size(); ++i) {
+    const bool is_up = truth[i].mode != swarm::VehicleMode::kGrounded && truth[i].height_m > limits_.landed_height_m;
+    if (is_up) airborne_.push_back(i);
+  }
+  Clearances now;
+  judge_pairs(truth, snapshot, now);
+  judge_places(truth, now);
+  judge_speeds(truth, snapshot);
+  lower(totals_.least.airborne_pair_m, now.airborne_pair_m);
+  lower(totals_.least.active_pair_m, now.active_pair_m);
+  lower(totals_.least.wall_m, now.wall_m);
+  lower(totals_.least.no_fly_m, now.no_fly_m);
+  return now;
+}
+
+}  // namespace vigil::runtime

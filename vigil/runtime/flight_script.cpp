@@ -1,0 +1,131 @@
+#include "vigil/runtime/flight_script.hpp"
+
+#include <algorithm>
+#include <optional>
+
+#include <fmt/format.h>
+
+#include "vigil/runtime/mission_setup.hpp"
+#include "vigil/runtime/mission_description.hpp"
+
+namespace vigil::runtime {
+namespace {
+
+using swarm::CommandKind;
+using swarm::DroneId;
+
+/// The operator's command that an event stands for, where it stands for one.
+std::optional<CommandKind> command_of(EventKind kind) {
+  switch (kind) {
+    case EventKind::kTakeOff: return CommandKind::kTakeOff;
+    case EventKind::kLand: return CommandKind::kLand;
+    case EventKind::kHold: return CommandKind::kHold;
+    case EventKind::kResume: return CommandKind::kResume;
+    case EventKind::kMarkFailed: return CommandKind::kMarkFailed;
+    case EventKind::kEmergencyStop: return CommandKind::kEmergencyStop;
+    case EventKind::kOverride: return CommandKind::kOverride;
+    case EventKind::kGiveBack: return CommandKind::kGiveBack;
+    default: return std::nullopt;
+  }
+}
+
+bool edits_targets(EventKind kind) {
+  return kind == EventKind::kAddTarget || kind == EventKind::kMoveTarget || kind == EventKind::kRemoveTarget ||
+         kind == EventKind::kSetWeight;
+}
+
+template <typename Entries>
+auto find_named(Entries& entries, const std::string& name) {
+  return std::find_if(entries.begin(), entries.end(), [&](const auto& entry) { return entry.name == name; });
+}
+
+ClusterEntry& cluster_named(TargetsSection& targets, const std::string& name) {
+  const auto found = find_named(targets.clusters, name);
+  if (found != targets.clusters.end()) return *found;
+  ClusterEntry fresh;
+  fresh.name = name;
+  return targets.clusters.emplace_back(std::move(fresh));
+}
+
+void set_weight(TargetsSection& targets, const EventEntry& event) {
+  if (const auto cluster = find_named(targets.clusters, event.cluster); cluster != targets.clusters.end())
+    cluster->weight = event.weight;
+  else if (const auto area = find_named(targets.areas, event.cluster); area != targets.areas.end())
+    area->weight = event.weight;
+}
+
+void apply_edit(TargetsSection& targets, const EventEntry& event) {
+  if (event.what == EventKind::kSetWeight) return set_weight(targets, event);
+  ClusterEntry& cluster = cluster_named(targets, event.cluster);
+  const std::ptrdiff_t index = event.target - 1;  // people count from 1
+  switch (event.what) {
+    case EventKind::kAddTarget: cluster.points_m.push_back(event.point_m); break;
+    case EventKind::kMoveTarget: cluster.points_m.at(static_cast<std::size_t>(index)) = event.point_m; break;
+    case EventKind::kRemoveTarget: cluster.points_m.erase(cluster.points_m.begin() + index); break;
+    default: break;
+  }
+  if (cluster.points_m.empty()) targets.clusters.erase(find_named(targets.clusters, event.cluster));
+}
+
+std::string describe_edit(const EventEntry& event) {
+  switch (event.what) {
+    case EventKind::kAddTarget:
+      return fmt::format("{}: new target at ({}, {}) m", event.cluster, event.point_m.x(), event.point_m.y());
+    case EventKind::kMoveTarget:
+      return fmt::format("{}: target {} to ({}, {}) m", event.cluster, event.target, event.point_m.x(), event.point_m.y());
+    case EventKind::kRemoveTarget: return fmt::format("{}: target {} removed", event.cluster, event.target);
+    default: return fmt::format("{}: weight {}", event.cluster, event.weight);
+  }
+}
+
+}  // namespace
+
+FlightScript::FlightScript(Mission& mission, VirtualFleet& fleet) : mission_(mission), fleet_(fleet) {}
+
+DueEvents FlightScript::play(double time_s) {
+  // Times of ticks are products of rounded numbers; an event at 23 s belongs to the tick at 22.999999999999996 s.
+  constexpr double kRounding = 1e-9;
+  DueEvents due;
+  const std::vector<EventEntry>& events = mission_.simulation.events;
+  for (; next_ < events.size() && events[next_].at_s <= time_s + kRounding; ++next_) {
+    const EventEntry& event = events[next_];
+    const bool is_world = event.what == EventKind::kFail || event.what == EventKind::kLoseTracking;
+    due.log.push_back({time_s, is_world ? "world" : "mission", std::string(name_of(event.what)), event.drone, {}});
+    play_event(event, due);
+  }
+  return due;
+}
+
+void FlightScript::play_event(const EventEntry& event, DueEvents& due) {
+  if (edits_targets(event.what)) {
+    edit_targets(event, due);
+  } else if (event.what == EventKind::kStartAfresh) {
+    due.commands.push_back({.kind = CommandKind::kStartAfresh, .drone = {}, .target = {}});
+  } else {
+    play_for_drones(event, due);
+  }
+}
+
+void FlightScript::play_for_drones(const EventEntry& event, DueEvents& due) {
+  const Vec2 velocity = world_frame(mission_).vector_to_field(event.velocity_m_s);
+  for (std::size_t index = 0; index < mission_.drones.size(); ++index) {
+    if (event.drone != "all" && event.drone != mission_.drones[index].id) continue;
+    const DroneId drone(index);
+    if (const auto command = command_of(event.what)) due.commands.push_back({.kind = *command, .drone = drone, .target = {}});
+    switch (event.what) {
+      case EventKind::kFail: fleet_.fail(drone); break;
+      case EventKind::kOverride: fleet_.take_over(drone, velocity); break;
+      case EventKind::kGiveBack: fleet_.give_back(drone); break;
+      case EventKind::kLoseTracking: fleet_.hide(drone, event.for_s); break;
+      default: break;
+    }
+  }
+}
+
+void FlightScript::edit_targets(const EventEntry& event, DueEvents& due) {
+  apply_edit(mission_.targets, event);
+  due.targets_changed = true;
+  due.log.back().detail = describe_edit(event);
+}
+
+}  // namespace vigil::runtime

@@ -1,0 +1,115 @@
+#include "vigil/runtime/flight_summary.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "vigil/runtime/mission_description.hpp"
+
+namespace vigil::runtime {
+namespace {
+
+/// Round times, and those at which something happens: where one would want to know how far coverage was.
+std::vector<double> times_to_ask(const Mission& mission) {
+  std::vector<double> times{1, 2, 5, 10, 20, 30, 40, 60, 90, 120, 180, 240, 300, 600, 900, 1200, 1800, 2700, 3600};
+  for (double hours = 2.0; hours <= 48.0; ++hours) times.push_back(3600.0 * hours);
+  for (const EventEntry& event : mission.simulation.events) times.push_back(event.at_s);
+  std::sort(times.begin(), times.end());
+  times.erase(std::unique(times.begin(), times.end()), times.end());
+  return times;
+}
+
+/// JSON has no infinity: what never was is null.
+nlohmann::ordered_json finite_or_null(double value) {
+  return std::isfinite(value) ? nlohmann::ordered_json(value) : nlohmann::ordered_json(nullptr);
+}
+
+double quantile(std::vector<float> values, double share) {
+  if (values.empty()) return 0.0;
+  const auto at = static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size() - 1));
+  std::nth_element(values.begin(), values.begin() + at, values.end());
+  return static_cast<double>(values[static_cast<std::size_t>(at)]);
+}
+
+}  // namespace
+
+SummaryBuilder::SummaryBuilder(const Mission& mission)
+    : ask_percent_at_s_(times_to_ask(mission)),
+      asked_duration_s_(mission.simulation.duration_s),
+      dt_s_(1.0 / mission.control.rate_hz) {
+  summary_.mission = mission.name;
+  summary_.seed = mission.simulation.seed;
+  summary_.drones = mission.drones.size();
+  summary_.accounting = name_of(mission.control.accounting);
+  summary_.controller = name_of(mission.control.controller);
+  summary_.barrier = name_of(mission.safety.barrier);
+}
+
+void SummaryBuilder::add(const swarm::Snapshot& snapshot, double tick_us) {
+  ++summary_.ticks;
+  tick_us_.push_back(static_cast<float>(tick_us));
+  if (snapshot.fallback) ++summary_.fallback_ticks;
+  if (summary_.active.empty() || summary_.active.back().second != snapshot.active)
+    summary_.active.emplace_back(snapshot.time_s, snapshot.active);
+  if (!snapshot.has_metric) return;
+  if (!summary_.first_metric) summary_.first_metric = snapshot.metric;
+  summary_.last_metric = snapshot.metric;
+  summary_.last_percent = snapshot.metric_percent;
+  for (; next_ask_ < ask_percent_at_s_.size() && ask_percent_at_s_[next_ask_] <= snapshot.time_s + 0.5 * dt_s_; ++next_ask_)
+    summary_.percent_at.emplace_back(ask_percent_at_s_[next_ask_], snapshot.metric_percent);
+}
+
+FlightSummary SummaryBuilder::finish(const AuditTotals& audit,
+                                     std::vector<std::pair<std::string, double>> worst_revisit_s) const {
+  FlightSummary summary = summary_;
+  summary.audit = audit;
+  summary.worst_revisit_s = std::move(worst_revisit_s);
+  summary.duration_s = static_cast<double>(summary.ticks) * dt_s_;
+  summary.complete = summary.duration_s >= asked_duration_s_ - 0.5 * dt_s_;
+  summary.tick_us_p50 = quantile(tick_us_, 0.5);
+  summary.tick_us_p99 = quantile(tick_us_, 0.99);
+  summary.tick_us_max = quantile(tick_us_, 1.0);
+  return summary;
+}
+
+nlohmann::ordered_json to_json(const FlightSummary& summary) {
+  using Json = nlohmann::ordered_json;
+  Json percent_at = Json::object();
+  for (const auto& [at_s, percent] : summary.percent_at) percent_at[fmt::format("{:g}", at_s)] = percent;
+  Json revisit = Json::object();
+  for (const auto& [area, worst_s] : summary.worst_revisit_s) revisit[area] = worst_s;
+  Json active = Json::array();
+  for (const auto& [at_s, count] : summary.active) active.push_back({at_s, count});
+  const Json metric{{"first", summary.first_metric ? Json(*summary.first_metric) : Json(nullptr)},
+                    {"last", summary.first_metric ? Json(summary.last_metric) : Json(nullptr)},
+                    {"percent_last", summary.first_metric ? Json(summary.last_percent) : Json(nullptr)},
+                    {"percent_at", percent_at}};
+  return Json{{"mission", summary.mission},
+              {"seed", summary.seed},
+              {"duration_s", summary.duration_s},
+              {"complete", summary.complete},
+              {"ticks", summary.ticks},
+              {"drones", summary.drones},
+              {"metric", metric},
+              {"min_separation_m",
+               {{"airborne", finite_or_null(summary.audit.least.airborne_pair_m)},
+                {"active", finite_or_null(summary.audit.least.active_pair_m)}}},
+              {"min_wall_distance_m", finite_or_null(summary.audit.least.wall_m)},
+              {"min_no_fly_distance_m", finite_or_null(summary.audit.least.no_fly_m)},
+              {"max_speed_m_s", summary.audit.max_speed_m_s},
+              {"separation_violations", summary.audit.separation_violations},
+              {"wall_violations", summary.audit.wall_violations},
+              {"no_fly_violations", summary.audit.no_fly_violations},
+              {"speed_violations", summary.audit.speed_violations},
+              {"fallback_ticks", summary.fallback_ticks},
+              {"worst_revisit_s", revisit},
+              {"active", active},
+              {"tick_us", {{"p50", summary.tick_us_p50}, {"p99", summary.tick_us_p99}, {"max", summary.tick_us_max}}},
+              {"accounting", summary.accounting},
+              {"controller", summary.controller},
+              {"barrier", summary.barrier}};
+}
+
+}  // namespace vigil::runtime

@@ -1,0 +1,127 @@
+#include "vigil/runtime/mission_writer.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <utility>
+
+#include "vigil/runtime/mission_description.hpp"
+#include "vigil/runtime/yaml_scalar.hpp"
+
+namespace vigil::runtime {
+namespace {
+
+bool is_letter(char c) { return (c >= 'A' && c <= 'Z') || (c >= 'a' && c <= 'z'); }
+bool is_digit(char c) { return c >= '0' && c <= '9'; }
+
+/// A word that every YAML reader takes for text.
+bool is_plain_word(std::string_view text) {
+  YamlNode scalar;
+  scalar.kind = YamlNode::Kind::kScalar;
+  scalar.text = text;
+  constexpr std::array<std::string_view, 8> kSpecial{"null", "Null", "NULL", "yes", "no", "on", "off", "none"};
+  return !text.empty() && is_letter(text.front()) &&
+         std::ranges::all_of(text, [](char c) { return is_letter(c) || is_digit(c) || c == '_' || c == '-'; }) &&
+         std::ranges::find(kSpecial, text) == kSpecial.end() && scalar_type(scalar) == ScalarType::kText;
+}
+
+std::string text_in_yaml(std::string_view text) {
+  if (is_plain_word(text)) return std::string(text);
+  std::string quoted = "\"";
+  for (const char c : text) {
+    switch (c) {
+      case '"': quoted += "\\\""; break;
+      case '\\': quoted += "\\\\"; break;
+      case '\n': quoted += "\\n"; break;
+      case '\t': quoted += "\\t"; break;
+      default: quoted += c;
+    }
+  }
+  return quoted + "\"";
+}
+
+/// The shortest decimal that reads back as the same number.
+std::string in_yaml(const Vec2& point) { return fmt::format("[{}, {}]", point.x(), point.y()); }
+
+class Writer final : public DescriptionVisitor {
+ public:
+  [[nodiscard]] std::string take() { return std::move(yaml_); }
+
+  void number(const Key& key, const Range& /*range*/, double& value) override { line(key, fmt::format("{}", value)); }
+  void number(const Key& key, const Range& /*range*/, std::optional<double>& value) override {
+    if (value) line(key, fmt::format("{}", *value));
+  }
+  void text(const Key& key, TextRule /*rule*/, std::string& value) override { line(key, text_in_yaml(value)); }
+  void point(const Key& key, const Range& /*range*/, Vec2& value) override { line(key, in_yaml(value)); }
+
+  void points(const Key& key, const Range& /*range*/, const Count& /*count*/, std::vector<Vec2>& value) override {
+    std::string list;
+    for (const Vec2& point : value) list += (list.empty() ? "" : ", ") + in_yaml(point);
+    line(key, "[" + list + "]");
+  }
+
+  void section(const Key& key, const Describe& describe) override {
+    line(key, "");
+    indent_ += 2;
+    describe(*this);
+    indent_ -= 2;
+  }
+
+  void optional_section(const Key& key, const OptionalSection& part) override {
+    if (part.is_present) section(key, part.describe);
+  }
+
+  void list(const Key& key, const Count& count, const ListOfSections& sections) override {
+    if (sections.size == 0) {
+      if (count.low == 0) line(key, "[]");
+      return;
+    }
+    line(key, "");
+    indent_ += 4;
+    for (std::size_t i = 0; i < sections.size; ++i) {
+      begins_entry_ = true;
+      sections.describe(*this, i);
+    }
+    indent_ -= 4;
+  }
+
+  void variants(const Key& key, std::span<const Choice> choices, std::size_t& chosen, const Describe& rest) override {
+    visit_choice(key, choices, chosen);
+    rest(*this);
+  }
+
+  void exactly_one_of(std::string_view /*first*/, std::string_view /*second*/) override {}
+
+ protected:
+  void visit_whole_number(const Key& key, const WholeRange& /*range*/, std::int64_t& value) override {
+    line(key, fmt::format("{}", value));
+  }
+  void visit_choice(const Key& key, std::span<const Choice> choices, std::size_t& chosen) override {
+    line(key, choices[chosen].name);
+  }
+
+ private:
+  void line(const Key& key, std::string_view value) {
+    const bool is_first = std::exchange(begins_entry_, false);
+    yaml_.append(is_first ? indent_ - 2 : indent_, ' ').append(is_first ? "- " : "").append(key.name).append(":");
+    if (!value.empty()) yaml_.append(" ").append(value);
+    yaml_ += '\n';
+  }
+
+  std::string yaml_;
+  std::size_t indent_ = 0;
+  bool begins_entry_ = false;
+};
+
+}  // namespace
+
+std::string mission_yaml(const Mission& mission) {
+  Mission shown = mission;
+  if (shown.drone_grid) shown.drones.clear();
+  Writer writer;
+  describe(writer, shown);
+  return writer.take();
+}
+
+}  // namespace vigil::runtime

@@ -1,0 +1,51 @@
+#pragma once
+
+#include <span>
+#include <string>
+#include <string_view>
+
+#include "vigil/runtime/fleet.hpp"
+#include "vigil/runtime/mission.hpp"
+#include "vigil/swarm/snapshot.hpp"
+
+namespace vigil::runtime {
+
+/// Smallest distances between drones by ground truth (or, in a live flight, by what is known). Infinity where no such
+/// pair, or drone, is there.
+struct Clearances {
+  double airborne_pair_m = swarm::DroneObservation::kNever;  ///< between drones that are both in the air
+  double active_pair_m = swarm::DroneObservation::kNever;    ///< between drones that are both active
+  double wall_m = swarm::DroneObservation::kNever;           ///< from an airborne drone to the field's border; negative outside
+  double no_fly_m = swarm::DroneObservation::kNever;         ///< from an airborne drone to a no-fly outline; negative inside
+};
+
+/// One tick, as it is kept.
+struct TickRecord {
+  const swarm::Snapshot& snapshot;
+  std::span<const TruthSample> truth;  ///< empty in a live flight
+  Clearances clearances;
+};
+
+/// Something that happened, in words: who, what, to which drone.
+struct LoggedEvent {
+  double time_s = 0.0;
+  std::string source;  ///< "operator", "mission", "world", "swarm"
+  std::string what;    ///< a word of the event's kind, snake_case
+  std::string drone;   ///< an id, "all", or empty
+  std::string detail;  ///< for people
+};
+
+/// Where a flight is written. Errors surface as exceptions of std::runtime_error from begin(), and from finish(), which says
+/// whether all of it was kept; record() and log() never throw, so that a full disk does not end a flight.
+class Recorder {
+ public:
+  virtual ~Recorder() = default;
+  virtual void begin(const Mission& mission) = 0;
+  virtual void record(const TickRecord& tick) noexcept = 0;
+  virtual void log(const LoggedEvent& event) noexcept = 0;
+  /// The targets that hold from time_s on.
+  virtual void targets(double time_s, const TargetsSection& targets) noexcept = 0;
+  virtual void finish() = 0;
+};
+
+}  // namespace vigil::runtime

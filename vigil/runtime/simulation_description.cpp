@@ -1,0 +1,166 @@
+#include <array>
+
+#include "vigil/runtime/mission_description.hpp"
+
+namespace vigil::runtime {
+namespace {
+
+constexpr std::array<Choice, 2> kVehicleModel{{
+    {"ideal", "(3): the velocity is the command"},
+    {"first_order_lag", "v' = (u - v) / lag_s, with |v'| limited where acceleration_limit_m_s2 is given"},
+}};
+
+constexpr std::array<Choice, 2> kStartState{{
+    {"flying", "every drone hovers at its start"},
+    {"grounded", "every drone stands at its start until a take_off event"},
+}};
+
+constexpr std::array<Choice, 15> kEventKind{{
+    {"take_off", "the operator lets a drone take off"},
+    {"land", "the operator lets a drone land where it is"},
+    {"hold", "the operator lets a drone hover, out of coverage"},
+    {"resume", "the operator sends a drone back to coverage after hold or mark_failed"},
+    {"mark_failed", "the operator declares a drone failed"},
+    {"emergency_stop", "the safety pilot stops a drone's motors"},
+    {"fail", "a vehicle fails in the air: it ignores commands and hovers where it stops"},
+    {"override", "a pilot takes a drone over and flies it at velocity_m_s"},
+    {"give_back", "the pilot gives the drone back"},
+    {"lose_tracking", "the tracker does not see a drone for for_s"},
+    {"add_target", "a target point joins a cluster, which is made where it is new"},
+    {"move_target", "a target point of a cluster moves"},
+    {"remove_target", "a target point leaves its cluster; the last one removes the cluster"},
+    {"set_weight", "a cluster or area gets another weight"},
+    {"start_afresh", "all coverage so far is forgotten"},
+}};
+
+constexpr Range kDuration{0.0, 600.0};
+constexpr Range kNoise{0.0, 1000.0};
+constexpr Range kWorldCoordinate{-2e7, 2e7};
+
+void describe_drone(DescriptionVisitor& visitor, EventEntry& event) {
+  visitor.text({.name = "drone", .meaning = "the id of a drone, or `all`", .is_required = true}, TextRule::kIdentifier,
+               event.drone);
+}
+
+void describe_cluster(DescriptionVisitor& visitor, EventEntry& event) {
+  visitor.text({.name = "cluster", .meaning = "the name of a cluster; for set_weight also of an area", .is_required = true},
+               TextRule::kName, event.cluster);
+}
+
+void describe_target(DescriptionVisitor& visitor, EventEntry& event) {
+  visitor.whole_number({.name = "target", .meaning = "the number of a point of the cluster, counted from 1", .is_required = true},
+                       {1, 100'000}, event.target);
+}
+
+void describe_point(DescriptionVisitor& visitor, EventEntry& event) {
+  visitor.point({.name = "point_m", .meaning = "the target point, world frame", .unit = "m", .is_required = true},
+                kWorldCoordinate, event.point_m);
+}
+
+/// The keys that an event of its kind needs; no others are allowed.
+void describe_particulars(DescriptionVisitor& visitor, EventEntry& event) {
+  switch (event.what) {
+    case EventKind::kTakeOff:
+    case EventKind::kLand:
+    case EventKind::kHold:
+    case EventKind::kResume:
+    case EventKind::kMarkFailed:
+    case EventKind::kEmergencyStop:
+    case EventKind::kFail:
+    case EventKind::kGiveBack:
+      describe_drone(visitor, event);
+      return;
+    case EventKind::kOverride:
+      describe_drone(visitor, event);
+      visitor.point({.name = "velocity_m_s", .meaning = "what the pilot flies, world frame", .unit = "m/s", .is_required = true},
+                    {-100.0, 100.0}, event.velocity_m_s);
+      return;
+    case EventKind::kLoseTracking:
+      describe_drone(visitor, event);
+      visitor.number({.name = "for_s", .meaning = "the time for which it is not seen", .unit = "s", .is_required = true}, {0.0, 1e6, false},
+                     event.for_s);
+      return;
+    case EventKind::kAddTarget:
+      describe_cluster(visitor, event);
+      describe_point(visitor, event);
+      return;
+    case EventKind::kMoveTarget:
+      describe_cluster(visitor, event);
+      describe_target(visitor, event);
+      describe_point(visitor, event);
+      return;
+    case EventKind::kRemoveTarget:
+      describe_cluster(visitor, event);
+      describe_target(visitor, event);
+      return;
+    case EventKind::kSetWeight:
+      describe_cluster(visitor, event);
+      visitor.number({.name = "weight", .meaning = "the new weight", .is_required = true}, {0.0, 1e6}, event.weight);
+      return;
+    case EventKind::kStartAfresh:
+      return;
+  }
+}
+
+}  // namespace
+
+void describe(DescriptionVisitor& visitor, SimulationSection& simulation) {
+  visitor.number({.name = "duration_s", .meaning = "the time that is simulated", .unit = "s"}, {0.0, 1e6, false},
+                 simulation.duration_s);
+  visitor.whole_number({.name = "seed", .meaning = "the seed of everything random; same seed, same bytes"},
+                       {0, std::int64_t{1} << 53U}, simulation.seed);
+  visitor.choice({.name = "start", .meaning = "how drones are found at the start"}, kStartState, simulation.start);
+  visitor.section({.name = "vehicle", .meaning = "how a vehicle follows its velocity command"},
+                  [&](DescriptionVisitor& v) { describe(v, simulation.vehicle); });
+  visitor.section({.name = "tracker", .meaning = "how positions are measured"},
+                  [&](DescriptionVisitor& v) { describe(v, simulation.tracker); });
+  visitor.list({.name = "events", .meaning = "what happens when, in the order of at_s"}, {0, 10'000},
+               sections_of(simulation.events));
+}
+
+void describe(DescriptionVisitor& visitor, VehicleSection& vehicle) {
+  visitor.choice({.name = "model", .meaning = "the equation of motion"}, kVehicleModel, vehicle.model);
+  visitor.number({.name = "lag_s", .meaning = "the time constant of `first_order_lag`", .unit = "s"}, {0.0, 10.0}, vehicle.lag_s);
+  visitor.number({.name = "acceleration_limit_m_s2",
+                  .meaning = "the highest acceleration of `first_order_lag`",
+                  .unit = "m/s^2",
+                  .default_text = "none"},
+                 {0.0, 1000.0, false}, vehicle.acceleration_limit_m_s2);
+  visitor.number({.name = "command_delay_s", .meaning = "the time from the controller's decision to the vehicle's reaction", .unit = "s"},
+                 {0.0, 10.0}, vehicle.command_delay_s);
+  visitor.number({.name = "altitude_m", .meaning = "the height at which it flies", .unit = "m"}, {0.0, 1e4, false}, vehicle.altitude_m);
+  visitor.number({.name = "take_off_s", .meaning = "the time from the ground to there", .unit = "s"}, kDuration, vehicle.take_off_s);
+  visitor.number({.name = "landing_s", .meaning = "the time from there to the ground", .unit = "s"}, kDuration, vehicle.landing_s);
+  visitor.number({.name = "emergency_s", .meaning = "the time from there to the ground with the motors off", .unit = "s"}, kDuration,
+                 vehicle.emergency_s);
+}
+
+void describe(DescriptionVisitor& visitor, TrackerSection& tracker) {
+  visitor.number({.name = "noise_m", .meaning = "the standard deviation of a position, per axis", .unit = "m"}, kNoise,
+                 tracker.noise_m);
+  visitor.number({.name = "velocity_noise_m_s", .meaning = "the standard deviation of a velocity, per axis", .unit = "m/s"},
+                 kNoise, tracker.velocity_noise_m_s);
+  visitor.number({.name = "delay_s", .meaning = "the age of a measurement when it arrives", .unit = "s"}, {0.0, 10.0},
+                 tracker.delay_s);
+  visitor.number({.name = "dropouts_per_min", .meaning = "the number of times a drone is lost from sight, on average", .unit = "1/min"},
+                 {0.0, 6000.0}, tracker.dropouts_per_min);
+  visitor.number({.name = "dropout_s", .meaning = "the mean length of one", .unit = "s"}, {0.0, 600.0, false},
+                 tracker.dropout_s);
+}
+
+void describe(DescriptionVisitor& visitor, EventEntry& event) {
+  visitor.number({.name = "at_s", .meaning = "the time from the start", .unit = "s", .is_required = true}, {0.0, 1e6},
+                 event.at_s);
+  auto chosen = static_cast<std::size_t>(event.what);
+  visitor.variants({.name = "do", .meaning = "what happens", .is_required = true}, kEventKind, chosen,
+                   [&](DescriptionVisitor& v) {
+                     event.what = static_cast<EventKind>(chosen);
+                     describe_particulars(v, event);
+                   });
+}
+
+std::string_view name_of(VehicleModel value) { return kVehicleModel.at(static_cast<std::size_t>(value)).name; }
+std::string_view name_of(StartState value) { return kStartState.at(static_cast<std::size_t>(value)).name; }
+std::string_view name_of(EventKind value) { return kEventKind.at(static_cast<std::size_t>(value)).name; }
+
+}  // namespace vigil::runtime
