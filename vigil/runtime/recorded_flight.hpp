@@ -31,13 +31,13 @@ struct TickColumns {
 struct DroneColumns {
   std::vector<swarm::VehicleMode> mode;
   std::vector<swarm::Activity> activity;
-  std::vector<Vec2> position_m;      ///< what the controller believed
+  std::vector<Vec2> position_m;  ///< what the controller believed
   std::vector<double> height_m;
   std::vector<Vec2> velocity_m_s;
-  std::vector<double> age_s;         ///< of the position; infinite: never seen
-  std::vector<Vec2> nominal_m_s;     ///< what coverage wanted
+  std::vector<double> age_s;      ///< of the position; infinite: never seen
+  std::vector<Vec2> nominal_m_s;  ///< what coverage wanted
   std::vector<swarm::Action> action;
-  std::vector<Vec2> command_m_s;     ///< what was asked of it
+  std::vector<Vec2> command_m_s;                           ///< what was asked of it
   std::vector<std::optional<safety::HoldingRow>> held_by;  ///< the nearest of what held it
   std::vector<std::uint8_t> fallback;
   std::vector<Vec2> true_position_m;  ///< NaN in a live flight
