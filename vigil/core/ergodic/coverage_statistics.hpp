@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <optional>
 #include <span>
 
@@ -10,31 +11,43 @@ namespace vigil::ergodic {
 /// How coverage is averaged when the set of active drones changes (control.md 3).
 enum class Accounting {
   kDroneTime,    ///< the occupation measure: every drone-second counts alike; continuous at a failure
-  kElapsedTime,  ///< every second counts alike, shared by those active: (14) with the averages weighted by t1/t and (t-t1)/t
+  kElapsedTime,  ///< every second counts alike, shared by those active: (14) with the averages weighted by t1/t and
+                 ///< (t-t1)/t
   kPaperEq14     ///< (14) as printed: the averages of all phases are added up; total mass grows by 1 with each phase
 };
 
-/// Where the swarm has spent its time, as Fourier coefficients: (K+1)^2 numbers and a few scalars, however long the mission.
-/// A value: copying it copies all of it. No member but the constructor allocates. One thread at a time.
+/// Where the swarm has spent its time, as Fourier coefficients: (K+1)^2 numbers and a few scalars, however long the
+/// mission. A value: copying it copies all of it. No member but the constructor allocates. One thread at a time.
 class CoverageStatistics {
  public:
-  /// memory_s: time constant with which the past fades, dS = (sum f - S/memory) dt; none: a plain average.
+  /// memory_s: time constant with which the past fades, dS = (sum f - S/memory) dt, solved exactly for drones that stay
+  /// where they are during a sample; none: a plain average. With kPaperEq14 the past fades within a phase; finished
+  /// phases keep their mass of 1. Precondition: memory_s > 0.
   CoverageStatistics(const Basis& basis, Accounting accounting, std::optional<double> memory_s);
 
-  /// Adds one sample of dt_s seconds: the active drones' positions. A sample without drones changes nothing but, for
-  /// kPaperEq14, ends the phase. `active_set` tells phases apart: a number that differs whenever other drones are summed.
+  /// Adds one sample of dt_s > 0 seconds: the active drones' positions. A sample without drones changes nothing but,
+  /// for kPaperEq14, ends the phase. `active_set` tells phases apart: a number that differs whenever other drones are
+  /// summed. Precondition: the kernel is one of the same basis; positions finite.
   void add(Kernel& kernel, std::span<const Vec2> positions, std::size_t active_set, double dt_s) noexcept;
 
-  /// c_k of (4) or (14); all zero before the first sample.
+  /// c_k of (4) or (14), 1/m; all zero before the first sample. Precondition: c_k is (K+1) x (K+1).
   void average(Coefficients& c_k) const noexcept;
 
   /// False before the first sample and after reset().
-  [[nodiscard]] bool has_samples() const noexcept;
+  [[nodiscard]] bool has_samples() const noexcept { return has_samples_; }
   /// Forgets everything: "start coverage afresh".
   void reset() noexcept;
 
  private:
-  // (the implementer completes this)
+  void end_phase() noexcept;
+
+  Accounting accounting_;
+  std::optional<double> memory_s_;
+  Coefficients sum_;            ///< S_k: the integral of f_k over time, summed over drones (averaged for kElapsedTime)
+  double time_s_ = 0.0;         ///< T: the same integral of 1
+  Coefficients past_averages_;  ///< the sum of the finished phases' averages; stays zero but for kPaperEq14
+  std::size_t active_set_ = 0;
+  bool has_samples_ = false;
 };
 
 }  // namespace vigil::ergodic

@@ -1,0 +1,73 @@
+#include "vigil/core/ergodic/coverage_statistics.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cassert>
+#include <cmath>
+
+namespace vigil::ergodic {
+namespace {
+
+// sum_k += weight times the sum over the drones of f_k(p_i). In portions, so that equal weights need no buffer of the
+// swarm's size.
+void add_evenly(Kernel& kernel, std::span<const Vec2> positions, double weight, Coefficients& sum_k) noexcept {
+  constexpr std::size_t kPortion = 64;
+  std::array<double, kPortion> weights{};
+  weights.fill(weight);
+  for (std::size_t first = 0; first < positions.size(); first += kPortion) {
+    const std::size_t size = std::min(kPortion, positions.size() - first);
+    kernel.add_basis(positions.subspan(first, size), std::span(weights).first(size), sum_k);
+  }
+}
+
+}  // namespace
+
+CoverageStatistics::CoverageStatistics(const Basis& basis, Accounting accounting, std::optional<double> memory_s)
+    : accounting_(accounting),
+      memory_s_(memory_s),
+      sum_(Coefficients::Zero(basis.indices_per_axis(), basis.indices_per_axis())),
+      past_averages_(Coefficients::Zero(basis.indices_per_axis(), basis.indices_per_axis())) {
+  assert(!memory_s || *memory_s > 0.0);
+}
+
+void CoverageStatistics::add(Kernel& kernel, std::span<const Vec2> positions, std::size_t active_set,
+                             double dt_s) noexcept {
+  assert(dt_s > 0.0);
+  if (accounting_ == Accounting::kPaperEq14 && (positions.empty() || active_set != active_set_)) end_phase();
+  active_set_ = active_set;
+  if (positions.empty()) return;
+
+  // dS = (f - S/memory) dt over dt_s with f held: S <- S exp(-dt/memory) + f memory (1 - exp(-dt/memory)); without
+  // memory S + f dt.
+  const double kept = memory_s_ ? std::exp(-dt_s / *memory_s_) : 1.0;
+  const double gained_s = memory_s_ ? -*memory_s_ * std::expm1(-dt_s / *memory_s_) : dt_s;
+
+  const auto drones = static_cast<double>(positions.size());
+  const double each_s = accounting_ == Accounting::kElapsedTime ? gained_s / drones : gained_s;
+  sum_ *= kept;
+  add_evenly(kernel, positions, each_s, sum_);
+  time_s_ = time_s_ * kept + each_s * drones;
+  has_samples_ = true;
+}
+
+void CoverageStatistics::average(Coefficients& c_k) const noexcept {
+  assert(c_k.rows() == sum_.rows() && c_k.cols() == sum_.cols());
+  c_k = past_averages_;
+  if (time_s_ > 0.0) c_k += sum_ / time_s_;
+}
+
+void CoverageStatistics::reset() noexcept {
+  sum_.setZero();
+  time_s_ = 0.0;
+  past_averages_.setZero();
+  has_samples_ = false;
+}
+
+// A phase without samples has no average and adds nothing.
+void CoverageStatistics::end_phase() noexcept {
+  if (time_s_ > 0.0) past_averages_ += sum_ / time_s_;
+  sum_.setZero();
+  time_s_ = 0.0;
+}
+
+}  // namespace vigil::ergodic
