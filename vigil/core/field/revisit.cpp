@@ -71,6 +71,13 @@ void RevisitLog::see(std::span<const Vec2> positions, double radius_m, double no
   }
 }
 
+void RevisitLog::watch(std::vector<Vec2> places, double now_s) {
+  if (places == places_) return;
+  worst_gap_s_ = worst_s(now_s);
+  places_ = std::move(places);
+  seen_s_.assign(places_.size(), now_s);
+}
+
 double RevisitLog::age_s(double now_s) const noexcept {
   const auto oldest = std::min_element(seen_s_.begin(), seen_s_.end());
   return oldest == seen_s_.end() ? 0.0 : now_s - *oldest;

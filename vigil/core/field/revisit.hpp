@@ -24,6 +24,10 @@ class RevisitLog {
   /// allocation.
   void see(std::span<const Vec2> positions, double radius_m, double now_s) noexcept;
 
+  /// From now_s on other places are meant: unless they are the same, their time begins anew; what was worst until now
+  /// stays. Without places the area is not watched any more.
+  void watch(std::vector<Vec2> places, double now_s);
+
   [[nodiscard]] const std::string& name() const { return name_; }
   /// The longest that any place has gone unseen, up to now_s and counting the time since it was seen last.
   [[nodiscard]] double worst_s(double now_s) const noexcept;

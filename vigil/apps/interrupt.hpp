@@ -1,0 +1,9 @@
+#pragma once
+
+namespace vigil::apps {
+
+/// Lets Ctrl-C and SIGTERM be noticed instead of ending the program at once; a second one ends it as usual.
+void catch_interrupts();
+[[nodiscard]] bool is_interrupted() noexcept;
+
+}  // namespace vigil::apps

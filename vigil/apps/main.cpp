@@ -1,0 +1,106 @@
+#include <cstdio>
+#include <exception>
+#include <new>
+#include <string>
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+#include "vigil/adapters/recording/recording_error.hpp"
+#include "vigil/apps/check_command.hpp"
+#include "vigil/apps/failure.hpp"
+#include "vigil/apps/report_command.hpp"
+#include "vigil/apps/simulate_command.hpp"
+#include "vigil/runtime/mission_error.hpp"
+
+namespace vigil::apps {
+namespace {
+
+/// What the command line asks for. Parsed once, handed to exactly one command.
+struct Arguments {
+  SimulateOptions simulate;
+  CheckOptions check;
+  ReportOptions report;
+};
+
+void add_settings(CLI::App* command, std::vector<std::string>& settings) {
+  command->add_option("--set", settings, "Change a value of the mission: key=value, e.g. control.accounting=paper_eq14")
+      ->type_name("KEY=VALUE")
+      ->take_all();
+}
+
+CLI::App* add_simulate(CLI::App& program, SimulateOptions& options) {
+  CLI::App* command = program.add_subcommand("simulate", "Fly a mission in the simulator, as fast as it can");
+  command->add_option("MISSION", options.mission, "The mission file (YAML)")->required();
+  command->add_option("--out", options.out, "Directory for recording/ and summary.json; must not exist")->required();
+  command->add_option("--seconds", options.seconds, "How long to fly instead of what the mission says");
+  command->add_option("--seed", options.seed, "The seed of everything random instead of the mission's");
+  command->add_option("--record-every", options.keep_every, "Keep every Nth tick in the recording")->check(CLI::Range(1, 1'000'000));
+  command->add_flag("--json", options.json, "Print summary.json instead of a text");
+  add_settings(command, options.settings);
+  return command;
+}
+
+CLI::App* add_check(CLI::App& program, CheckOptions& options) {
+  CLI::App* command = program.add_subcommand("check", "Validate a mission file and explain what it means");
+  command->add_option("MISSION", options.mission, "The mission file (YAML)")->required();
+  command->add_flag("--json", options.json, "Print JSON instead of a text");
+  add_settings(command, options.settings);
+  return command;
+}
+
+CLI::App* add_report(CLI::App& program, ReportOptions& options) {
+  CLI::App* command = program.add_subcommand("report", "Draw the figures of a recording (SVG and PNG) and report.html");
+  command->add_option("DIR", options.directory, "The directory that simulate wrote")->required();
+  return command;
+}
+
+int run(int argc, char** argv) {
+  CLI::App program("A drone swarm that persistently monitors what people point at.", "vigil");
+  program.set_version_flag("--version", "vigil " VIGIL_VERSION);
+  program.require_subcommand(0, 1);
+  program.footer("Exit codes: 0 done, 1 the check failed, 2 bad arguments or mission file, 3 a component is missing or failed.\n"
+                 "Start with: vigil simulate missions/paper.yaml --out out/paper && vigil report out/paper");
+  Arguments arguments;
+  const CLI::App* simulate_command = add_simulate(program, arguments.simulate);
+  const CLI::App* check_command = add_check(program, arguments.check);
+  const CLI::App* report_command = add_report(program, arguments.report);
+  const CLI::App* schema_command = program.add_subcommand("schema", "Print the JSON Schema of mission files, for editors");
+  try {
+    program.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    if (error.get_exit_code() == 0) return program.exit(error);
+    throw Failure(kBadInput, fmt::format("{}; `vigil --help` and `vigil COMMAND --help` list what there is", error.what()));
+  }
+  if (simulate_command->parsed()) return simulate(arguments.simulate);
+  if (check_command->parsed()) return check(arguments.check);
+  if (report_command->parsed()) return report(arguments.report);
+  if (schema_command->parsed()) return print_schema();
+  std::fputs(program.help().c_str(), stdout);
+  return kBadInput;
+}
+
+int fail(ExitCode code, const std::string& line) {
+  fmt::print(stderr, "vigil: {}\n", line);
+  return code;
+}
+
+}  // namespace
+}  // namespace vigil::apps
+
+int main(int argc, char** argv) {
+  using namespace vigil;
+  try {
+    return apps::run(argc, argv);
+  } catch (const apps::Failure& failure) {
+    return apps::fail(failure.code(), failure.what());
+  } catch (const runtime::MissionError& error) {
+    return apps::fail(apps::kBadInput, error.what());
+  } catch (const recording::RecordingError& error) {
+    return apps::fail(apps::kComponentFailed, error.what());
+  } catch (const std::bad_alloc&) {
+    return apps::fail(apps::kComponentFailed, "out of memory; fly fewer drones or a shorter mission");
+  } catch (const std::exception& error) {
+    return apps::fail(apps::kComponentFailed, error.what());
+  }
+}

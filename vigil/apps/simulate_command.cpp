@@ -1,0 +1,93 @@
+#include "vigil/apps/simulate_command.hpp"
+
+#include <chrono>
+#include <cmath>
+#include <cstdio>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "vigil/adapters/recording/csv_recorder.hpp"
+#include "vigil/apps/failure.hpp"
+#include "vigil/apps/fleet_choice.hpp"
+#include "vigil/apps/interrupt.hpp"
+#include "vigil/apps/mission_choice.hpp"
+#include "vigil/apps/progress_bar.hpp"
+#include "vigil/apps/text_file.hpp"
+#include "vigil/runtime/mission_writer.hpp"
+#include "vigil/runtime/virtual_flight.hpp"
+
+namespace vigil::apps {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Creates the directory of results; refuses one that is there, so that no flight overwrites another.
+void create_results(const fs::path& out) {
+  std::error_code error;
+  if (fs::exists(fs::symlink_status(out, error)))
+    throw Failure(kBadInput, fmt::format("--out {}: is there already; name a directory that is not, or remove it", out.string()));
+  fs::create_directories(out, error);
+  if (error)
+    throw Failure(kBadInput, fmt::format("--out {}: cannot be created ({}); name a place where you may write", out.string(), error.message()));
+}
+
+std::vector<std::string> with_shorthands(const SimulateOptions& options) {
+  std::vector<std::string> settings = options.settings;
+  if (options.seconds) settings.push_back(fmt::format("simulation.duration_s={}", *options.seconds));
+  if (options.seed) settings.push_back(fmt::format("simulation.seed={}", *options.seed));
+  return settings;
+}
+
+std::chrono::nanoseconds now() { return std::chrono::steady_clock::now().time_since_epoch(); }
+
+void fly(runtime::VirtualFlight& flight) {
+  ProgressBar progress("flying");
+  while (!flight.is_over() && !is_interrupted()) {
+    flight.step();
+    const double share = static_cast<double>(flight.ticks_flown()) / static_cast<double>(flight.ticks_to_fly());
+    if (flight.ticks_flown() % 50 == 0)
+      progress.show(share, fmt::format("{:.0f} s, metric {:.2f} %", flight.snapshot().time_s, flight.snapshot().metric_percent));
+  }
+}
+
+std::string metres(double value) { return std::isfinite(value) ? fmt::format("{:.3f} m", value) : std::string("-"); }
+
+void print_for_people(const runtime::FlightSummary& summary, const fs::path& out) {
+  const runtime::AuditTotals& audit = summary.audit;
+  fmt::print("{}: {} drones, {:g} s{}\n", summary.mission, summary.drones, summary.duration_s,
+             summary.complete ? "" : " (stopped before its time)");
+  if (summary.first_metric) fmt::print("  ergodic metric     {:.2f} % of its first value\n", summary.last_percent);
+  fmt::print("  least separation   {} airborne, {} active\n", metres(audit.least.airborne_pair_m), metres(audit.least.active_pair_m));
+  fmt::print("  least wall         {}\n", metres(audit.least.wall_m));
+  fmt::print("  fastest            {:.3f} m/s\n", audit.max_speed_m_s);
+  fmt::print("  violations         {} separation, {} wall, {} no-fly, {} speed (by ground truth)\n", audit.separation_violations,
+             audit.wall_violations, audit.no_fly_violations, audit.speed_violations);
+  fmt::print("  written to         {}\n  figures            vigil report {}\n", out.string(), out.string());
+}
+
+}  // namespace
+
+int simulate(const SimulateOptions& options) {
+  const runtime::Mission mission = choose_mission(options.mission, with_shorthands(options));
+  create_results(options.out);
+  catch_interrupts();
+
+  const std::unique_ptr<runtime::VirtualFleet> fleet = simulated_fleet(mission);
+  recording::CsvRecorder recorder(options.out, runtime::mission_yaml(mission), options.keep_every);
+  recorder.begin(mission);
+  runtime::VirtualFlight flight(mission, *fleet, &recorder, now);
+  fly(flight);
+  recorder.finish();
+
+  const runtime::FlightSummary summary = flight.summary();
+  const std::string text = runtime::to_json(summary).dump(2) + "\n";
+  write_whole(options.out / "summary.json", text);
+  if (options.json) std::fputs(text.c_str(), stdout);
+  else print_for_people(summary, options.out);
+  if (summary.complete) return kDone;
+  fmt::print(stderr, "vigil: stopped at {:g} s of {:g} s; what was flown is in {}\n", summary.duration_s, mission.simulation.duration_s, options.out.string());
+  return kInterrupted;
+}
+
+}  // namespace vigil::apps

@@ -1,0 +1,139 @@
+#include "vigil/swarm/activity.hpp"
+
+#include <cmath>
+
+namespace vigil::swarm {
+namespace {
+
+bool usable(const DroneObservation& observed) {
+  return observed.position.allFinite() && std::isfinite(observed.height_m) && std::isfinite(observed.age_s) &&
+         observed.age_s >= 0.0;
+}
+
+/// A negative or undefined age says nothing about freshness: it counts as never heard.
+double sane_age(double age_s) { return age_s >= 0.0 ? age_s : DroneObservation::kNever; }
+
+bool on_ground(VehicleMode mode) { return mode == VehicleMode::kGrounded; }
+
+/// What is wrong with the drone itself, whatever the operator wishes; kActive where nothing is.
+Activity fault_of(const DroneMemory& memory, const HealthParameters& health) {
+  const DroneObservation& seen = memory.last_good;
+  if (seen.age_s == DroneObservation::kNever) return Activity::kNeverSeen;
+  if (seen.mode == VehicleMode::kFailed) return Activity::kVehicleFailed;
+  if (seen.mode == VehicleMode::kFalling) return Activity::kEmergencyStop;
+  if (seen.age_s > health.tracking_timeout_s) return Activity::kTrackingLost;
+  if (seen.link_age_s > health.link_timeout_s) return Activity::kLinkLost;
+  if (seen.battery < health.battery_reserve) return Activity::kBatteryLow;  // false for NaN: not reported
+  return Activity::kActive;
+}
+
+/// What the operator's wish or the vehicle's own phase keeps it from; kActive where nothing does.
+Activity phase_of(const DroneMemory& memory) {
+  const VehicleMode mode = memory.last_good.mode;
+  if (memory.intent == Intent::kEmergencyStop) return Activity::kEmergencyStop;
+  if (memory.intent == Intent::kMarkedFailed) return Activity::kMarkedFailed;
+  if (memory.intent == Intent::kOverride || mode == VehicleMode::kManual) return Activity::kOverridden;
+  if (mode == VehicleMode::kGrounded) return Activity::kGrounded;
+  if (memory.intent == Intent::kLand || mode == VehicleMode::kLanding) return Activity::kLanding;
+  if (mode == VehicleMode::kTakingOff) return Activity::kTakingOff;
+  if (memory.intent == Intent::kHold || memory.intent == Intent::kStayDown) return Activity::kHeld;
+  return Activity::kActive;
+}
+
+/// Nothing takes off by itself: a drone that came down, asked or unasked, waits there for an operator.
+void settle_intent(DroneMemory& memory) {
+  const bool wants_the_air = memory.intent == Intent::kCover || memory.intent == Intent::kHold;
+  if (on_ground(memory.last_good.mode) && (wants_the_air || memory.intent == Intent::kLand))
+    memory.intent = Intent::kStayDown;
+  if (memory.last_good.mode == VehicleMode::kFlying && memory.intent == Intent::kTakeOff)
+    memory.intent = Intent::kCover;
+}
+
+bool in_the_air(const DroneMemory& memory) {
+  return memory.last_good.age_s != DroneObservation::kNever && !on_ground(memory.last_good.mode);
+}
+
+}  // namespace
+
+void remember(DroneMemory& memory, const DroneObservation& observed, double dt_s) noexcept {
+  DroneObservation& last = memory.last_good;
+  if (usable(observed)) {
+    last.position = observed.position;
+    last.velocity = observed.velocity.allFinite() ? observed.velocity : Vec2::Zero();
+    last.height_m = observed.height_m;
+    last.age_s = observed.age_s;
+  } else {
+    last.age_s += dt_s;
+  }
+  last.link_age_s = sane_age(observed.link_age_s);
+  if (observed.mode != VehicleMode::kUnknown) last.mode = observed.mode;
+  last.battery = observed.battery;
+}
+
+bool apply_wish(DroneMemory& memory, CommandKind wish) noexcept {
+  const bool airborne = in_the_air(memory);
+  const bool grounded = on_ground(memory.last_good.mode);
+  const Intent intent = memory.intent;
+  const auto set_if = [&memory](bool allowed, Intent wanted) {
+    if (allowed) memory.intent = wanted;
+    return allowed;
+  };
+  // Motors that were stopped in the air stay stopped.
+  if (intent == Intent::kEmergencyStop && airborne) return wish == CommandKind::kEmergencyStop;
+  switch (wish) {
+    case CommandKind::kEmergencyStop: return set_if(true, Intent::kEmergencyStop);
+    case CommandKind::kMarkFailed: return set_if(true, Intent::kMarkedFailed);
+    case CommandKind::kTakeOff:
+      return set_if(grounded && intent != Intent::kOverride && intent != Intent::kMarkedFailed, Intent::kTakeOff);
+    case CommandKind::kLand: return set_if(airborne, Intent::kLand);
+    case CommandKind::kHold: return set_if(airborne && intent != Intent::kOverride, Intent::kHold);
+    case CommandKind::kOverride: return set_if(airborne, Intent::kOverride);
+    case CommandKind::kResume: return set_if(intent == Intent::kHold || intent == Intent::kMarkedFailed, Intent::kCover);
+    case CommandKind::kGiveBack: return set_if(intent == Intent::kOverride, Intent::kCover);
+    case CommandKind::kSetTarget:
+    case CommandKind::kStartAfresh: break;
+  }
+  return false;
+}
+
+void judge(DroneMemory& memory, const HealthParameters& health, double dt_s) noexcept {
+  settle_intent(memory);
+  const Activity fault = fault_of(memory, health);
+  const Activity phase = phase_of(memory);
+  if (fault == Activity::kActive) {
+    memory.healthy_s += dt_s;
+    if (memory.healthy_s >= health.recovery_s) memory.is_recovering = false;
+    memory.activity = phase == Activity::kActive && memory.is_recovering ? Activity::kRecovering : phase;
+    return;
+  }
+  memory.healthy_s = 0.0;
+  memory.is_recovering = fault != Activity::kNeverSeen;  // the first sight of a drone is no recovery
+  // What the operator did to a drone, or its being down, says more than what is wrong with it then.
+  const bool phase_explains = phase == Activity::kGrounded || phase == Activity::kEmergencyStop ||
+                              phase == Activity::kMarkedFailed || phase == Activity::kOverridden;
+  memory.activity = phase_explains && fault != Activity::kNeverSeen ? phase : fault;
+}
+
+Action action_for(const DroneMemory& memory) noexcept {
+  // Said for as long as it is wished, whatever the vehicle reports: the message or the report may have been lost.
+  if (memory.intent == Intent::kEmergencyStop) return Action::kStopMotors;
+  const bool lands_already = memory.last_good.mode == VehicleMode::kLanding;
+  const bool may_take_off = memory.intent == Intent::kTakeOff && memory.healthy_s > 0.0;
+  switch (memory.activity) {
+    case Activity::kGrounded: return may_take_off ? Action::kTakeOff : Action::kNone;
+    case Activity::kLanding:
+    case Activity::kBatteryLow: return lands_already ? Action::kNone : Action::kLand;
+    case Activity::kActive:
+    case Activity::kHeld:
+    case Activity::kRecovering:
+    case Activity::kTrackingLost:
+    case Activity::kLinkLost: return memory.intent == Intent::kLand ? Action::kLand : Action::kVelocity;
+    default: return Action::kNone;
+  }
+}
+
+bool is_airborne(const DroneMemory& memory, const HealthParameters& health) noexcept {
+  return in_the_air(memory) && memory.last_good.height_m > health.landed_height_m;
+}
+
+}  // namespace vigil::swarm

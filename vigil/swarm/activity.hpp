@@ -1,0 +1,80 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+
+#include "vigil/swarm/command.hpp"
+#include "vigil/swarm/observation.hpp"
+
+namespace vigil::swarm {
+
+/// When a drone counts as flying normally: the paper's fault-free, (12).
+struct HealthParameters {
+  double tracking_timeout_s = 0.5;
+  double link_timeout_s = 1.0;
+  double battery_reserve = 0.2;   ///< share of full
+  double recovery_s = 0.5;        ///< healthy for so long before it is active again
+  double landed_height_m = 0.05;  ///< below this it is down
+};
+
+/// What the operator last wanted of a drone.
+enum class Intent : std::uint8_t {
+  kStayDown,  ///< nothing: on the ground it stays there, in the air it hovers
+  kTakeOff,   ///< until it flies, then kCover
+  kCover,     ///< until it is on the ground, for whatever reason, then kStayDown: nothing takes off by itself
+  kLand,
+  kHold,
+  kMarkedFailed,
+  kEmergencyStop,  ///< until a take-off is asked for on the ground
+  kOverride
+};
+
+/// Active, or why not: the paper's chi_i (12) with its reason.
+enum class Activity : std::uint8_t {
+  kActive,
+  kNeverSeen,       ///< no position yet
+  kGrounded,        ///< on the ground
+  kTakingOff,
+  kLanding,
+  kEmergencyStop,   ///< its motors were stopped
+  kOverridden,      ///< a pilot has it
+  kMarkedFailed,    ///< an operator declared it failed
+  kVehicleFailed,   ///< it says itself that it failed
+  kTrackingLost,    ///< its position is too old or not a number
+  kLinkLost,        ///< it has not been heard for too long
+  kBatteryLow,      ///< below the reserve: it lands
+  kHeld,            ///< an operator holds it, or it flies although nobody asked it to
+  kRecovering       ///< healthy again, for less than recovery_s
+};
+
+/// What the vehicle is asked to do, every tick anew (so a lost message costs one tick).
+enum class Action : std::uint8_t { kNone, kTakeOff, kLand, kVelocity, kStopMotors };
+
+/// What the swarm remembers of one drone between ticks.
+struct DroneMemory {
+  Intent intent = Intent::kStayDown;
+  DroneObservation last_good;      ///< the newest observation whose numbers were usable; its ages count on
+  double healthy_s = 0.0;          ///< how long nothing has been wrong with it
+  bool is_recovering = false;      ///< something was wrong with it: recovery_s applies
+  Activity activity = Activity::kNeverSeen;
+};
+
+/// Takes this tick's observation into `memory`: keeps the last usable one, with ages that count on.
+void remember(DroneMemory& memory, const DroneObservation& observed, double dt_s) noexcept;
+
+/// Changes `memory.intent` as the operator wishes. False where the wish makes no sense now and is refused: take-off of one
+/// that is not on the ground, that a pilot has or that is marked failed; resuming one that is neither held nor marked
+/// failed; giving back one that nobody took over; landing, holding or taking over one that is not in the air; anything but
+/// another emergency stop for one whose motors were stopped in the air.
+[[nodiscard]] bool apply_wish(DroneMemory& memory, CommandKind wish) noexcept;
+
+/// Decides memory.activity (12) for this tick, and moves the intent on where the vehicle has fulfilled it.
+void judge(DroneMemory& memory, const HealthParameters& health, double dt_s) noexcept;
+
+/// What to ask of the vehicle, given its activity and mode.
+[[nodiscard]] Action action_for(const DroneMemory& memory) noexcept;
+
+/// In the air as far as is known: neither seen on the ground nor below the landed height.
+[[nodiscard]] bool is_airborne(const DroneMemory& memory, const HealthParameters& health) noexcept;
+
+}  // namespace vigil::swarm

@@ -1,0 +1,43 @@
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "vigil/core/ergodic/basis.hpp"
+#include "vigil/core/field/polygon.hpp"
+#include "vigil/swarm/drone_id.hpp"
+
+namespace vigil::swarm {
+
+/// Where to look, ready for the controller. Made outside the tick, immutable afterwards.
+struct CoverageTarget {
+  ergodic::Coefficients phi_k;         ///< (K+1) x (K+1); ignored where has_targets is false
+  bool has_targets = false;            ///< false: nothing to look at, the drones hover
+  std::vector<field::Segment> no_fly;  ///< edges, inside on the left; at most kMaxNoFlyEdges
+};
+
+inline constexpr std::size_t kMaxNoFlyEdges = 4096;
+
+enum class CommandKind : std::uint8_t {
+  kTakeOff,
+  kLand,
+  kHold,           ///< hover, out of coverage, still avoiding others
+  kResume,         ///< back to coverage after kHold or kMarkFailed
+  kMarkFailed,     ///< an operator declares it failed: whatever it does, it is not ours
+  kEmergencyStop,  ///< motors off
+  kOverride,       ///< a pilot takes it
+  kGiveBack,       ///< the pilot gives it back
+  kSetTarget,      ///< a new importance map
+  kStartAfresh     ///< forget where the swarm has been
+};
+
+/// An operator's wish. It takes effect at the tick that it is given to.
+struct Command {
+  CommandKind kind = CommandKind::kHold;
+  std::optional<DroneId> drone;                  ///< none: all drones
+  std::shared_ptr<const CoverageTarget> target;  ///< kSetTarget only, never null there
+};
+
+}  // namespace vigil::swarm

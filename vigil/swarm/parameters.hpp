@@ -1,0 +1,30 @@
+#pragma once
+
+#include <cstddef>
+#include <optional>
+
+#include "vigil/core/ergodic/coverage_statistics.hpp"
+#include "vigil/core/field/field.hpp"
+#include "vigil/core/safety/filter.hpp"
+#include "vigil/swarm/activity.hpp"
+
+namespace vigil::swarm {
+
+/// What the controller is set up with; it does not change in flight.
+struct SwarmParameters {
+  field::Field field;
+  std::size_t drones = 0;
+  double dt_s = 0.02;
+  int basis_max_index = 10;       ///< K
+  double basis_smoothness = 1.5;  ///< s
+  ergodic::Accounting accounting = ergodic::Accounting::kDroneTime;
+  std::optional<double> memory_s;
+  double fade = 0.02;             ///< delta of the faded gradient in units of gradient_scale()
+  safety::BarrierParameters barrier;
+  /// The paper's reading: a drone that is not active is no obstacle, wherever it is.
+  bool only_active_are_obstacles = false;
+  HealthParameters health;
+  Intent first_intent = Intent::kStayDown;  ///< of every drone before any command
+};
+
+}  // namespace vigil::swarm

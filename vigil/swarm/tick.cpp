@@ -1,0 +1,219 @@
+#include "vigil/swarm/tick.hpp"
+
+#include <algorithm>
+#include <cassert>
+
+#include "vigil/core/ergodic/gradient_controller.hpp"
+
+namespace vigil::swarm {
+namespace {
+
+CoverageTarget no_target(const ergodic::Basis& basis) {
+  CoverageTarget target;
+  target.phi_k = ergodic::Coefficients::Zero(basis.indices_per_axis(), basis.indices_per_axis());
+  target.no_fly.reserve(kMaxNoFlyEdges);
+  return target;
+}
+
+bool fits(const CoverageTarget& target, const ergodic::Basis& basis) {
+  const bool has_shape =
+      target.phi_k.rows() == basis.indices_per_axis() && target.phi_k.cols() == basis.indices_per_axis();
+  return target.no_fly.size() <= kMaxNoFlyEdges && (!target.has_targets || (has_shape && target.phi_k.allFinite()));
+}
+
+/// Whether the filter computes the drone's velocity: it flies by our commands, and where it is, is known.
+bool is_steered(Activity activity) {
+  return activity == Activity::kActive || activity == Activity::kHeld || activity == Activity::kRecovering;
+}
+
+/// Whether it may move sideways although nobody here steers it.
+bool may_wander(Activity activity) {
+  return activity == Activity::kOverridden || activity == Activity::kMarkedFailed ||
+         activity == Activity::kVehicleFailed || activity == Activity::kTrackingLost ||
+         activity == Activity::kLinkLost;
+}
+
+}  // namespace
+
+SwarmState::SwarmState(const SwarmParameters& parameters)
+    : parameters_(parameters),
+      basis_(parameters.field, parameters.basis_max_index, parameters.basis_smoothness),
+      kernel_(basis_),
+      statistics_(basis_, parameters.accounting, parameters.memory_s),
+      filter_(parameters.barrier, parameters.field, parameters.drones),
+      target_(no_target(basis_)),
+      drones_(parameters.drones),
+      bodies_(parameters.drones),
+      u_nom_(parameters.drones, Vec2::Zero()),
+      u_(parameters.drones, Vec2::Zero()),
+      reports_(parameters.drones),
+      c_k_(target_.phi_k),
+      a_k_(target_.phi_k) {
+  for (DroneMemory& drone : drones_) drone.intent = parameters.first_intent;
+  active_.reserve(parameters.drones);
+  active_before_.reserve(parameters.drones);
+  active_positions_.reserve(parameters.drones);
+  slopes_.reserve(parameters.drones);
+}
+
+void SwarmState::set_target(const CoverageTarget& target) noexcept {
+  if (target.has_targets) target_.phi_k = target.phi_k;
+  else target_.phi_k.setZero();
+  target_.has_targets = target.has_targets;
+  target_.no_fly.assign(target.no_fly.begin(), target.no_fly.end());
+  fade_delta_ = parameters_.fade * ergodic::gradient_scale(basis_, target_.phi_k);
+}
+
+void SwarmState::take_wish(const Command& command, Snapshot& out) noexcept {
+  const auto wish = [&](std::size_t index) {
+    const bool accepted = apply_wish(drones_[index], command.kind);
+    Event event{.kind = accepted ? EventKind::kWishAccepted : EventKind::kWishRefused, .drone = DroneId(index)};
+    event.wish = command.kind;
+    out.note(event);
+  };
+  if (!command.drone) {
+    for (std::size_t index = 0; index < drones_.size(); ++index) wish(index);
+  } else if (command.drone->index() < drones_.size()) {
+    wish(command.drone->index());
+  } else {
+    Event event{.kind = EventKind::kWishRefused, .drone = *command.drone};
+    event.wish = command.kind;
+    out.note(event);
+  }
+}
+
+void SwarmState::take_commands(std::span<const Command> commands, Snapshot& out) noexcept {
+  for (const Command& command : commands) {
+    if (command.kind == CommandKind::kSetTarget) {
+      const bool usable = command.target != nullptr && fits(*command.target, basis_);
+      if (usable) set_target(*command.target);
+      Event event{.kind = usable ? EventKind::kTargetChanged : EventKind::kWishRefused};
+      event.wish = command.kind;
+      out.note(event);
+    } else if (command.kind == CommandKind::kStartAfresh) {
+      statistics_.reset();
+      has_first_metric_ = false;
+      out.note({.kind = EventKind::kStartedAfresh});
+    } else {
+      take_wish(command, out);
+    }
+  }
+}
+
+void SwarmState::remember_drones(std::span<const DroneObservation> observations) noexcept {
+  for (std::size_t index = 0; index < drones_.size(); ++index)
+    remember(drones_[index], observations[index], parameters_.dt_s);
+}
+
+void SwarmState::judge_drones(Snapshot& out) noexcept {
+  for (std::size_t index = 0; index < drones_.size(); ++index) {
+    DroneMemory& drone = drones_[index];
+    const Activity before = drone.activity;
+    judge(drone, parameters_.health, parameters_.dt_s);
+    if (drone.activity != before)
+      out.note({.kind = EventKind::kActivityChanged, .drone = DroneId(index), .before = before, .after = drone.activity});
+  }
+}
+
+/// I_a(t) of (13).
+void SwarmState::gather_active() noexcept {
+  active_before_.swap(active_);
+  active_.clear();
+  active_positions_.clear();
+  for (std::size_t index = 0; index < drones_.size(); ++index) {
+    if (drones_[index].activity != Activity::kActive) continue;
+    active_.push_back(index);
+    active_positions_.push_back(drones_[index].last_good.position);
+  }
+  if (active_ != active_before_) ++active_set_;
+}
+
+void SwarmState::cover(Snapshot& out) noexcept {
+  std::fill(u_nom_.begin(), u_nom_.end(), Vec2::Zero());
+  out.active = active_.size();
+  out.idle = !target_.has_targets ? Idle::kNoTargets : active_.empty() ? Idle::kNoActiveDrone : Idle::kNone;
+  // Hovering for want of targets is no coverage: it would weigh on the statistics of the targets to come.
+  if (target_.has_targets) statistics_.add(kernel_, active_positions_, active_set_, parameters_.dt_s);
+  statistics_.average(c_k_);
+
+  out.has_metric = target_.has_targets && statistics_.has_samples();
+  out.metric = out.has_metric ? ergodic::ergodic_metric(basis_, c_k_, target_.phi_k) : 0.0;  // (4)
+  if (out.has_metric && !has_first_metric_) {
+    first_metric_ = out.metric;
+    has_first_metric_ = true;
+  }
+  out.metric_percent = out.has_metric && first_metric_ > 0.0 ? 100.0 * out.metric / first_metric_ : 0.0;
+  if (out.idle != Idle::kNone) return;
+
+  a_k_.array() = basis_.weight().array() * (c_k_ - target_.phi_k).array();  // lambda_k (c_k - phi_k)
+  slopes_.resize(active_.size());                                          // within its capacity
+  kernel_.gradient(active_positions_, a_k_, slopes_);                       // (7)
+  for (std::size_t i = 0; i < active_.size(); ++i)                          // (9)
+    u_nom_[active_[i]] = ergodic::faded_direction(slopes_[i], parameters_.barrier.u_max_m_s, fade_delta_);
+}
+
+double SwarmState::assumed_age(const DroneMemory& drone) const noexcept {
+  const bool is_lost = !is_steered(drone.activity);
+  // The paper's barrier knows no age; only a drone that is lost is given more room.
+  if (parameters_.barrier.kind == safety::BarrierKind::kPaper && !is_lost) return 0.0;
+  // Once its position or its link is lost a drone is told to stop, or stops by its own failsafe: it wanders no farther.
+  const double longest = parameters_.health.tracking_timeout_s + parameters_.health.link_timeout_s;
+  return std::min(drone.last_good.age_s, longest);
+}
+
+safety::Body SwarmState::body_of(const DroneMemory& drone) const noexcept {
+  safety::Body body;
+  body.position = drone.last_good.position;
+  body.velocity = drone.last_good.velocity;
+  body.age_s = assumed_age(drone);
+  body.is_controlled = is_steered(drone.activity);
+  body.is_obstacle = parameters_.only_active_are_obstacles ? drone.activity == Activity::kActive
+                                                           : is_airborne(drone, parameters_.health);
+  body.uncooperative_speed_m_s = may_wander(drone.activity) ? parameters_.barrier.u_max_m_s : 0.0;
+  return body;
+}
+
+void SwarmState::keep_safe(Snapshot& out) noexcept {
+  for (std::size_t index = 0; index < drones_.size(); ++index) bodies_[index] = body_of(drones_[index]);
+  filter_.run(bodies_, target_.no_fly, u_nom_, u_, reports_);
+  out.fallback = std::any_of(reports_.begin(), reports_.end(), [](const auto& report) { return report.fallback; });
+}
+
+void SwarmState::write_orders(Snapshot& out) noexcept {
+  for (std::size_t index = 0; index < drones_.size(); ++index) {
+    const DroneMemory& drone = drones_[index];
+    DroneSnapshot& to = out.drones[index];
+    to.position = drone.last_good.position;
+    to.velocity = drone.last_good.velocity;
+    to.height_m = drone.last_good.height_m;
+    to.age_s = drone.last_good.age_s;
+    to.link_age_s = drone.last_good.link_age_s;
+    to.battery = drone.last_good.battery;
+    to.mode = drone.last_good.mode;
+    to.activity = drone.activity;
+    to.is_obstacle = bodies_[index].is_obstacle;
+    to.u_nom = u_nom_[index];
+    to.order.action = action_for(drone);
+    to.order.velocity = to.order.action == Action::kVelocity ? u_[index] : Vec2::Zero();
+    to.filter = reports_[index];
+  }
+}
+
+void tick(SwarmState& state, std::span<const DroneObservation> observations, std::span<const Command> commands,
+          Snapshot& out) noexcept {
+  assert(observations.size() == state.drones_.size() && out.drones.size() == state.drones_.size());
+  out.tick = state.ticks_;
+  out.time_s = static_cast<double>(state.ticks_) * state.parameters_.dt_s;
+  out.events.clear();
+  out.lost_events = 0;
+  state.remember_drones(observations);
+  state.take_commands(commands, out);
+  state.judge_drones(out);
+  state.gather_active();
+  state.cover(out);
+  state.keep_safe(out);
+  state.write_orders(out);
+  ++state.ticks_;
+}
+
+}  // namespace vigil::swarm

@@ -1,0 +1,80 @@
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "vigil/core/ergodic/coverage_statistics.hpp"
+#include "vigil/core/ergodic/kernel.hpp"
+#include "vigil/core/safety/filter.hpp"
+#include "vigil/swarm/command.hpp"
+#include "vigil/swarm/observation.hpp"
+#include "vigil/swarm/parameters.hpp"
+#include "vigil/swarm/snapshot.hpp"
+
+namespace vigil::swarm {
+
+/// The whole controller between two ticks, as one value: copy it and run the copy ahead to look into the future.
+class SwarmState {
+ public:
+  /// Precondition: parameters that mission checks accepted. Allocates all that ticks will ever need.
+  explicit SwarmState(const SwarmParameters& parameters);
+
+  [[nodiscard]] const SwarmParameters& parameters() const { return parameters_; }
+  [[nodiscard]] const ergodic::Basis& basis() const { return basis_; }
+  [[nodiscard]] const CoverageTarget& target() const { return target_; }
+  [[nodiscard]] const ergodic::CoverageStatistics& statistics() const { return statistics_; }
+  /// How many ticks have been run.
+  [[nodiscard]] std::uint64_t ticks() const { return ticks_; }
+
+ private:
+  friend void tick(SwarmState& state, std::span<const DroneObservation> observations,
+                   std::span<const Command> commands, Snapshot& out) noexcept;
+
+  void take_commands(std::span<const Command> commands, Snapshot& out) noexcept;
+  void take_wish(const Command& command, Snapshot& out) noexcept;
+  void set_target(const CoverageTarget& target) noexcept;
+  void remember_drones(std::span<const DroneObservation> observations) noexcept;
+  void judge_drones(Snapshot& out) noexcept;
+  void gather_active() noexcept;
+  void cover(Snapshot& out) noexcept;
+  void keep_safe(Snapshot& out) noexcept;
+  void write_orders(Snapshot& out) noexcept;
+  [[nodiscard]] safety::Body body_of(const DroneMemory& drone) const noexcept;
+  [[nodiscard]] double assumed_age(const DroneMemory& drone) const noexcept;
+
+  SwarmParameters parameters_;
+  ergodic::Basis basis_;
+  ergodic::Kernel kernel_;
+  ergodic::CoverageStatistics statistics_;
+  safety::Filter filter_;
+  CoverageTarget target_;
+  double fade_delta_ = 0.0;
+  double first_metric_ = 0.0;
+  bool has_first_metric_ = false;
+  std::uint64_t ticks_ = 0;
+  std::size_t active_set_ = 0;  ///< a number that grows whenever other drones are active
+  std::vector<DroneMemory> drones_;
+
+  // Work space of one tick.
+  std::vector<std::size_t> active_;
+  std::vector<std::size_t> active_before_;
+  std::vector<Vec2> active_positions_;
+  std::vector<Vec2> slopes_;
+  std::vector<safety::Body> bodies_;
+  std::vector<Vec2> u_nom_;
+  std::vector<Vec2> u_;
+  std::vector<safety::FilterReport> reports_;
+  ergodic::Coefficients c_k_;
+  ergodic::Coefficients a_k_;
+};
+
+/// One control tick: takes in `observations` (one per drone), applies `commands`, adds to the coverage statistics, asks the
+/// ergodic controller where to go and the safety filter what of it is allowed, and writes orders and reasons to `out`.
+/// Pure: it depends on nothing but its arguments; it reads no clock, takes no lock, opens nothing, allocates nothing.
+/// The tick lasts parameters().dt_s. Precondition: as many observations, and drones in `out`, as drones; whatever is in the
+/// observations. A command for a drone that does not exist, or a target of the wrong shape, is refused with an event.
+void tick(SwarmState& state, std::span<const DroneObservation> observations, std::span<const Command> commands,
+          Snapshot& out) noexcept;
+
+}  // namespace vigil::swarm
