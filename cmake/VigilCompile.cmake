@@ -12,10 +12,18 @@ target_include_directories(vigil_compile INTERFACE "${PROJECT_SOURCE_DIR}")
 if(VIGIL_SANITIZE)
   target_compile_options(vigil_compile INTERFACE
     -fsanitize=${VIGIL_SANITIZE} -fno-sanitize-recover=all -fno-omit-frame-pointer)
+  if(VIGIL_SANITIZE MATCHES undefined)
+    # These four double the time that Eigen takes to compile. Bad pointers stop a program under the address sanitizer
+    # all the same, and Eigen asserts the alignment that it needs.
+    target_compile_options(vigil_compile INTERFACE -fno-sanitize=null,alignment,object-size,vptr)
+  endif()
   target_link_options(vigil_compile INTERFACE -fsanitize=${VIGIL_SANITIZE})
 endif()
 
 find_program(CCACHE_PROGRAM ccache)
 if(CCACHE_PROGRAM AND NOT CMAKE_CXX_COMPILER_LAUNCHER)
-  set(CMAKE_CXX_COMPILER_LAUNCHER "${CCACHE_PROGRAM}")
+  # Another checkout of the same sources finds what this one compiled; precompiled headers may be cached too.
+  set(CMAKE_CXX_COMPILER_LAUNCHER "${CMAKE_COMMAND}" -E env
+    "CCACHE_BASEDIR=${PROJECT_SOURCE_DIR}" CCACHE_NOHASHDIR=1
+    CCACHE_SLOPPINESS=pch_defines,time_macros,include_file_mtime,include_file_ctime "${CCACHE_PROGRAM}")
 endif()
