@@ -35,7 +35,7 @@ std::unique_ptr<runtime::VirtualFleet> simulated_fleet(const runtime::Mission& m
       .dt_s = 1.0 / mission.control.rate_hz,
       .seed = mission.simulation.seed,
       .starts_flying = mission.simulation.start == runtime::StartState::kFlying};
-  return std::make_unique<sim::SimulatedFleet>(parameters, runtime::starts(mission));
+  return std::make_unique<sim::SimulatedFleet>(parameters, runtime::starts_in_field(mission));
 }
 
 }  // namespace vigil::apps

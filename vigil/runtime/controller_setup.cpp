@@ -18,9 +18,9 @@ swarm::HealthParameters health_parameters(const HealthSection& health) {
 
 swarm::SwarmParameters swarm_parameters(const Mission& mission, swarm::Intent first_intent) {
   swarm::SwarmParameters parameters;
-  parameters.field = field_of(mission);
+  parameters.field = monitored_field(mission);
   parameters.drones = mission.drones.size();
-  parameters.dt_s = 1.0 / mission.control.rate_hz;
+  parameters.dt_s = tick_s(mission);
   parameters.basis_max_index = mission.control.basis_max_index;
   parameters.basis_smoothness = mission.control.basis_smoothness;
   parameters.accounting = mission.control.accounting;
@@ -36,10 +36,7 @@ swarm::SwarmParameters swarm_parameters(const Mission& mission, swarm::Intent fi
 std::shared_ptr<const swarm::CoverageTarget> coverage_target(const Mission& mission, const ergodic::Basis& basis) {
   const field::Importance map = importance(mission);
   auto target = std::make_shared<swarm::CoverageTarget>();
-  for (const field::Polygon& polygon : map.no_fly) {
-    const std::vector<field::Segment> edges = field::edges(polygon);
-    target->no_fly.insert(target->no_fly.end(), edges.begin(), edges.end());
-  }
+  target->no_fly = no_fly_edges(mission);
   const field::GridShape shape = field::grid_shape(basis.field(), map, basis.max_index());
   if (const auto density = field::rasterise(basis.field(), map, shape)) {
     target->phi_k = ergodic::target_coefficients(basis, *density);

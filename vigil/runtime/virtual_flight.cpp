@@ -16,7 +16,7 @@ swarm::Intent first_intent(const Mission& mission) {
 
 AuditLimits audit_limits(const Mission& mission) {
   const safety::BarrierParameters barrier = barrier_parameters(mission);
-  return {.field = field_of(mission),
+  return {.field = monitored_field(mission),
           .no_fly = importance(mission).no_fly,
           .separation_m = barrier.separation_m,
           .wall_distance_m = barrier.wall_distance_m,
@@ -44,7 +44,7 @@ VirtualFlight::VirtualFlight(Mission mission, VirtualFleet& fleet, Recorder* rec
       ticks_to_fly_(static_cast<std::uint64_t>(std::llround(mission_.simulation.duration_s * mission_.control.rate_hz))),
       observations_(mission_.drones.size()),
       orders_(mission_.drones.size()),
-      footprint_radius_m_(footprint_radius(mission_)) {
+      footprint_radius_m_(footprint_radius_m(mission_)) {
   watchers_.reserve(mission_.drones.size());
 }
 
