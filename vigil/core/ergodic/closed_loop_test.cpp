@@ -105,5 +105,49 @@ TEST_F(ReferenceRun, The_gradients_are_the_reference_s) {
   }
 }
 
+// How well the two drones that are left cover the map, and how evenly they cover the field, in the metric (4).
+struct Survivors {
+  double to_map = 0.0;
+  double to_uniform = 0.0;
+};
+
+// The paper's acceptance run without its filter: three drones, one of which stops at 23 s, 120 s in all.
+Survivors fly_with_a_failure(Accounting accounting) {
+  const ReferenceMixture mixture = reference_mixture(reference_file("phi_paper3x3.json"));
+  const Basis basis(mixture.field, 10, 1.5);
+  const auto density = field::rasterise(mixture.field, mixture.gaussians, mixture.weights, {256, 256});
+  const Coefficients phi_k = target_coefficients(basis, density.value());
+  const double delta = 0.1 * gradient_scale(basis, phi_k);
+  Kernel kernel(basis);
+  CoverageStatistics steering(basis, accounting, std::nullopt);
+  CoverageStatistics survivors(basis, Accounting::kDroneTime, std::nullopt);
+  std::vector<Vec2> positions{{0.3, 0.4}, {2.6, 0.5}, {1.5, 2.7}};
+  std::vector<Vec2> b(positions.size());
+  Coefficients c_k(11, 11);
+  for (int step = 0; step < 6000; ++step) {
+    if (step == 1150) positions.pop_back();
+    steering.add(kernel, positions, positions.size(), 0.02);
+    if (positions.size() == 2) survivors.add(kernel, positions, 2, 0.02);
+    steering.average(c_k);
+    kernel.gradient(positions, basis.weight().cwiseProduct(c_k - phi_k), std::span(b).first(positions.size()));
+    for (std::size_t i = 0; i < positions.size(); ++i) positions[i] += 0.02 * faded_direction(b[i], 0.3, delta);
+  }
+  survivors.average(c_k);
+  Coefficients uniform = Coefficients::Zero(11, 11);
+  uniform(0, 0) = 1.0 / basis.norm()(0, 0);
+  return {.to_map = ergodic_metric(basis, c_k, phi_k), .to_uniform = ergodic_metric(basis, c_k, uniform)};
+}
+
+TEST(AccountingTest, After_a_failure_drone_time_keeps_the_survivors_on_the_map) {
+  const Survivors survivors = fly_with_a_failure(Accounting::kDroneTime);
+  EXPECT_LT(survivors.to_map, 0.1 * survivors.to_uniform);
+}
+
+// (14) adds the finished phase's average, which is near phi_k, to the running one: only a running one near zero fits.
+TEST(AccountingTest, After_a_failure_paper_eq_14_drives_the_survivors_to_uniform_coverage) {
+  const Survivors survivors = fly_with_a_failure(Accounting::kPaperEq14);
+  EXPECT_LT(survivors.to_uniform, 0.1 * survivors.to_map);
+}
+
 }  // namespace
 }  // namespace vigil::ergodic

@@ -15,7 +15,7 @@ namespace {
 //
 // which ends after finitely many terms for a polynomial. Corrections d_j of the first `corrected` weights make the rule
 // exact for degrees below `order` if sum of d_j p(j + 1/2) equals the left end's part for all such p. With as many
-// corrected weights as orders the solution is unique and wild (weights of +-2000 for order 16); with a quarter more,
+// corrected weights as orders the solution is unique and wild (weights of +-270 for order 16); with a quarter more,
 // the smallest solution is tame.
 //
 // As p we take Legendre polynomials of the corrected stretch [0, M], P_l(2x/M - 1): well conditioned, and with closed
