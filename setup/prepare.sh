@@ -105,7 +105,8 @@ quietly() {
   shift 2
   mkdir -p "$root/build"
   if ! "$@" </dev/null 2>&1 | tee "$log" | show_progress "$label"; then
-    tail -n 60 "$log" >&2
+    # A compiler's first error says most; other failures say it last.
+    { grep -m 1 -A 30 '^FAILED: ' "$log" || tail -n 40 "$log"; } >&2
     give_up "Failed: $* (all of its output: $log)"
   fi
 }
