@@ -1,0 +1,267 @@
+#include "vigil/runtime/mission_explanation.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+#include <numeric>
+
+#include "vigil/core/field/density.hpp"
+#include "vigil/runtime/mission_description.hpp"
+#include "vigil/runtime/mission_setup.hpp"
+
+namespace vigil::runtime {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+/// One thing that is looked at and its share of all attention before no-fly polygons and borders cut it.
+struct Share {
+  std::string kind;
+  std::string name;
+  double share = 0.0;
+  std::size_t points = 0;
+  std::optional<double> revisit_s;
+};
+
+std::vector<Share> shares_of(const Mission& mission) {
+  std::vector<Share> shares;
+  for (const ClusterEntry& cluster : mission.targets.clusters) {
+    const std::size_t points = cluster.points_m.size();
+    shares.push_back({"cluster", cluster.name, cluster.weight * static_cast<double>(points), points, cluster.revisit_s});
+  }
+  for (const AreaEntry& area : mission.targets.areas) shares.push_back({"area", area.name, area.weight, 0, area.revisit_s});
+  const double mass =
+      std::accumulate(shares.begin(), shares.end(), 0.0, [](double sum, const Share& share) { return sum + share.share; });
+  const double floor = mission.targets.uniform_floor;
+  for (Share& share : shares) share.share = mass > 0.0 ? share.share / mass * (1.0 - floor) : 0.0;
+  if (floor > 0.0) shares.push_back({"floor", "everywhere", mass > 0.0 ? floor : 1.0, 0, std::nullopt});
+  return shares;
+}
+
+std::string in_words(double value, std::string_view unit) { return fmt::format("{:.6g} {}", value, unit); }
+
+std::string given_or_derived(const std::optional<double>& given, double derived) {
+  return given ? fmt::format("{} (given)", in_words(*given, "m")) : fmt::format("{} (derived)", in_words(derived, "m"));
+}
+
+std::string given_or_default(const std::optional<double>& given, double value) {
+  return fmt::format("{} ({})", in_words(value, "m"), given ? "given" : "default");
+}
+
+field::GridShape grid_of(const Mission& mission) {
+  return field::grid_shape(monitored_field(mission), importance(mission), mission.control.basis_max_index);
+}
+
+std::string line(std::string_view label, std::string_view text) { return fmt::format("  {:<12} {}\n", label, text); }
+
+std::string explain_field(const Mission& mission) {
+  const FieldSection& field = mission.field;
+  std::string text = "field\n";
+  text += line("size", fmt::format("{:.6g} m x {:.6g} m, {:.6g} m^2", field.size_m.x(), field.size_m.y(), field.size_m.prod()));
+  text += line("placed", fmt::format("corner at [{:.6g}, {:.6g}] m in the world, turned by {:.6g} rad", field.origin_m.x(),
+                                     field.origin_m.y(), field.yaw_rad));
+  for (const NoFlyEntry& entry : mission.no_fly) {
+    const double area = field::area(polygon_in_field(mission, entry.outline_m));
+    text += line("no-fly", fmt::format("{}, {} vertices, {:.6g} m^2, kept {} away from", entry.name, entry.outline_m.size(), area,
+                                       in_words(barrier_parameters(mission).no_fly_buffer_m, "m")));
+  }
+  return text;
+}
+
+std::string explain_share(const Share& share) {
+  std::string text = fmt::format("{:5.1f} % {}", 100.0 * share.share, share.name);
+  if (share.points > 0) text += fmt::format(", {} point{}", share.points, share.points == 1 ? "" : "s");
+  if (share.revisit_s) text += fmt::format(", to be seen again within {}", in_words(*share.revisit_s, "s"));
+  return line(share.kind, text);
+}
+
+std::string explain_attention(const Mission& mission) {
+  std::string text = "attention\n";
+  for (const Share& share : shares_of(mission)) text += explain_share(share);
+  const field::GridShape grid = grid_of(mission);
+  text += line("spread", fmt::format("sigma_min {}, so that a single point is a proper Gaussian",
+                                     given_or_default(mission.targets.sigma_min_m, sigma_min_m(mission))));
+  text += line("map", fmt::format("{} x {} cells", grid.nx, grid.ny));
+  return text;
+}
+
+std::string explain_drones(const Mission& mission) {
+  std::string ids;
+  constexpr std::size_t kMostShown = 8;
+  for (std::size_t i = 0; i < std::min(kMostShown, mission.drones.size()); ++i) {
+    ids += fmt::format("{}{}", ids.empty() ? "" : ", ", mission.drones[i].id);
+  }
+  if (mission.drones.size() > kMostShown) ids += fmt::format(", ... {}", mission.drones.back().id);
+  std::string text = "drones\n";
+  text += line("swarm", fmt::format("{}: {}", mission.drones.size(), ids));
+  text += line("sees", fmt::format("places within {}", given_or_default(mission.sensor.footprint_radius_m,
+                                                                      footprint_radius_m(mission))));
+  return text;
+}
+
+std::string_view meaning_of(ergodic::Accounting accounting) {
+  switch (accounting) {
+    case ergodic::Accounting::kDroneTime: return "every drone-second counts alike; the paper prints (14) otherwise";
+    case ergodic::Accounting::kElapsedTime: return "every second counts alike, the likely intent of (14)";
+    case ergodic::Accounting::kPaperEq14: break;
+  }
+  return "(14) as printed";
+}
+
+std::string explain_control(const Mission& mission) {
+  const ControlSection& control = mission.control;
+  std::string text = "control\n";
+  text += line("tick", fmt::format("{:.6g} ms at {:.6g} Hz; at most {:.6g} m/s", 1e3 * tick_s(mission), control.rate_hz,
+                                   control.speed_limit_m_s));
+  text += line("controller", fmt::format("{}, fade {:.6g}{}", name_of(control.controller), control.fade,
+                                         control.fade == 0.0 ? ": (9) to the letter" : ": (9) without chatter"));
+  text += line("basis", fmt::format("{} coefficients (K = {}), lambda_k = (1 + |k|^2)^-{:.6g}",
+                                    (control.basis_max_index + 1) * (control.basis_max_index + 1), control.basis_max_index,
+                                    control.basis_smoothness));
+  text += line("accounting", fmt::format("{}: {}", name_of(control.accounting), meaning_of(control.accounting)));
+  text += line("memory", control.memory_s ? fmt::format("past coverage fades with {}", in_words(*control.memory_s, "s"))
+                                          : "none: a plain average over all time, as in (4)");
+  return text;
+}
+
+std::string explain_barrier(const Mission& mission, const safety::BarrierParameters& barrier) {
+  if (barrier.kind == safety::BarrierKind::kPaper) {
+    return fmt::format("paper: (10), (11) as printed, gamma(h) = {:.6g} h^3 for pairs, {:.6g} h^3 for walls", barrier.pair_gain,
+                       barrier.wall_gain);
+  }
+  return fmt::format("lag_aware: keeps R_z = {:.6g} m between points {:.6g} s ahead, gamma(h) = {:.6g} h for pairs, {:.6g} h "
+                     "for walls",
+                     safety::barrier_radius(barrier), mission.safety.lag_s, barrier.pair_gain, barrier.wall_gain);
+}
+
+std::string explain_safety(const Mission& mission) {
+  const safety::BarrierParameters barrier = barrier_parameters(mission);
+  std::string text = "safety\n";
+  text += line("barrier", explain_barrier(mission, barrier));
+  text += line("separation", fmt::format("R_s {}; bodies touch at {}", in_words(barrier.separation_m, "m"),
+                                         given_or_default(mission.safety.contact_distance_m, barrier.contact_distance_m)));
+  text += line("walls", fmt::format("R_wall {}", in_words(barrier.wall_distance_m, "m")));
+  text += line("sensing", fmt::format("{}; at least {} is needed",
+                                      given_or_derived(barrier.sensing_range_m, safety::derived_sensing_range(barrier)),
+                                      in_words(safety::least_sensing_range(barrier), "m")));
+  text += line("obstacles", mission.safety.obstacles == Obstacles::kAirborne
+                                ? "airborne: whatever is in the air"
+                                : "active_only: active drones alone, as in the paper");
+  return text;
+}
+
+std::string event_in_words(const EventEntry& event) {
+  const auto at = [](const Vec2& point) { return fmt::format("[{:.6g}, {:.6g}]", point.x(), point.y()); };
+  std::string text(name_of(event.what));
+  if (!event.drone.empty()) text += " " + event.drone;
+  if (!event.cluster.empty()) text += " " + event.cluster;
+  if (event.target > 0) text += fmt::format(" target {}", event.target);
+  switch (event.what) {
+    case EventKind::kOverride: return text + " at " + at(event.velocity_m_s) + " m/s";
+    case EventKind::kLoseTracking: return text + " for " + in_words(event.for_s, "s");
+    case EventKind::kAddTarget:
+    case EventKind::kMoveTarget: return text + " to " + at(event.point_m) + " m";
+    case EventKind::kSetWeight: return text + fmt::format(" to {:.6g}", event.weight);
+    default: return text;
+  }
+}
+
+std::string explain_simulation(const Mission& mission) {
+  const SimulationSection& simulation = mission.simulation;
+  std::string text = "simulation\n";
+  text += line("lasts", fmt::format("{}, seed {}, starts {}", in_words(simulation.duration_s, "s"), simulation.seed,
+                                    name_of(simulation.start)));
+  text += line("vehicle", simulation.vehicle.model == VehicleModel::kIdeal
+                              ? "ideal: its velocity is its command, (3)"
+                              : fmt::format("first_order_lag of {}", in_words(simulation.vehicle.lag_s, "s")));
+  for (const EventEntry& event : simulation.events) text += line(fmt::format("{:.6g} s", event.at_s), event_in_words(event));
+  return text;
+}
+
+Json attention_json(const Mission& mission) {
+  Json attention = Json::array();
+  for (const Share& share : shares_of(mission)) {
+    Json entry{{"kind", share.kind}, {"name", share.name}, {"share", share.share}};
+    if (share.points > 0) entry["points"] = share.points;
+    if (share.revisit_s) entry["revisit_s"] = *share.revisit_s;
+    attention.push_back(std::move(entry));
+  }
+  return attention;
+}
+
+Json safety_json(const Mission& mission) {
+  const safety::BarrierParameters barrier = barrier_parameters(mission);
+  return {{"barrier", name_of(barrier.kind)},
+          {"separation_m", barrier.separation_m},
+          {"contact_distance_m", barrier.contact_distance_m},
+          {"barrier_radius_m", safety::barrier_radius(barrier)},
+          {"wall_distance_m", barrier.wall_distance_m},
+          {"no_fly_buffer_m", barrier.no_fly_buffer_m},
+          {"pair_gain", barrier.pair_gain},
+          {"wall_gain", barrier.wall_gain},
+          {"sensing_range_m", barrier.sensing_range_m.value_or(safety::derived_sensing_range(barrier))},
+          {"least_sensing_range_m", safety::least_sensing_range(barrier)},
+          {"obstacles", name_of(mission.safety.obstacles)}};
+}
+
+Json control_json(const Mission& mission) {
+  const ControlSection& control = mission.control;
+  return {{"rate_hz", control.rate_hz},
+          {"speed_limit_m_s", control.speed_limit_m_s},
+          {"controller", name_of(control.controller)},
+          {"fade", control.fade},
+          {"basis_max_index", control.basis_max_index},
+          {"basis_smoothness", control.basis_smoothness},
+          {"accounting", name_of(control.accounting)},
+          {"memory_s", control.memory_s ? Json(*control.memory_s) : Json(nullptr)}};
+}
+
+Json events_json(const Mission& mission) {
+  Json events = Json::array();
+  for (const EventEntry& event : mission.simulation.events) {
+    events.push_back({{"at_s", event.at_s}, {"do", name_of(event.what)}, {"what", event_in_words(event)}});
+  }
+  return events;
+}
+
+}  // namespace
+
+std::string explain(const Mission& mission) {
+  std::string text = fmt::format("{}\n", mission.name);
+  if (!mission.description.empty()) text += fmt::format("{}\n", mission.description);
+  text += explain_field(mission) + explain_attention(mission) + explain_drones(mission) + explain_control(mission) +
+          explain_safety(mission) + explain_simulation(mission);
+  const std::vector<std::string> notes = notes_on(mission);
+  if (!notes.empty()) text += "worth a second look\n";
+  for (const std::string& note : notes) text += fmt::format("  - {}\n", note);
+  return text;
+}
+
+nlohmann::ordered_json explanation_json(const Mission& mission) {
+  const field::GridShape grid = grid_of(mission);
+  Json drones = Json::array();
+  for (const DroneEntry& drone : mission.drones) {
+    drones.push_back({{"id", drone.id}, {"start_m", {drone.start_m.x(), drone.start_m.y()}}});
+  }
+  return {{"mission", mission.name},
+          {"field",
+           {{"size_m", {mission.field.size_m.x(), mission.field.size_m.y()}},
+            {"origin_m", {mission.field.origin_m.x(), mission.field.origin_m.y()}},
+            {"yaw_rad", mission.field.yaw_rad},
+            {"no_fly", mission.no_fly.size()},
+            {"cells", {grid.nx, grid.ny}}}},
+          {"attention", attention_json(mission)},
+          {"sigma_min_m", sigma_min_m(mission)},
+          {"footprint_radius_m", footprint_radius_m(mission)},
+          {"drones", std::move(drones)},
+          {"control", control_json(mission)},
+          {"safety", safety_json(mission)},
+          {"duration_s", mission.simulation.duration_s},
+          {"seed", mission.simulation.seed},
+          {"vehicle", name_of(mission.simulation.vehicle.model)},
+          {"events", events_json(mission)},
+          {"notes", notes_on(mission)}};
+}
+
+}  // namespace vigil::runtime

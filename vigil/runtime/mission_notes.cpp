@@ -1,0 +1,95 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "vigil/runtime/mission_explanation.hpp"
+#include "vigil/runtime/mission_setup.hpp"
+
+namespace vigil::runtime {
+namespace {
+
+using Notes = std::vector<std::string>;
+
+bool is_paper_barrier(const Mission& mission) { return mission.safety.barrier == safety::BarrierKind::kPaper; }
+bool has_lag(const Mission& mission) { return mission.simulation.vehicle.model == VehicleModel::kFirstOrderLag; }
+
+void note_targets(const Mission& mission, Notes& notes) {
+  if (!importance(mission).has_targets()) {
+    notes.emplace_back("There is nothing to look at: drones hover until a target is added.");
+  }
+}
+
+void note_barrier(const Mission& mission, Notes& notes) {
+  const VehicleSection& vehicle = mission.simulation.vehicle;
+  const TrackerSection& tracker = mission.simulation.tracker;
+  if (is_paper_barrier(mission) && has_lag(mission)) {
+    notes.emplace_back("The barrier `paper` is safe only for vehicles that follow their velocity at once; this vehicle lags: "
+                       "expect violations, or take `barrier: lag_aware`.");
+  }
+  if (!is_paper_barrier(mission) && has_lag(mission) && mission.safety.lag_s < vehicle.lag_s) {
+    notes.push_back(fmt::format("safety.lag_s ({} s) is less than the vehicle's lag ({} s): separation is not guaranteed.",
+                                mission.safety.lag_s, vehicle.lag_s));
+  }
+  const bool is_imperfect = vehicle.command_delay_s > 0.0 || vehicle.acceleration_limit_m_s2 || tracker.noise_m > 0.0 ||
+                            tracker.delay_s > 0.0 || tracker.dropouts_per_min > 0.0;
+  if (is_imperfect && mission.safety.margin_m == 0.0) {
+    notes.emplace_back("Delay, noise, dropouts or an acceleration limit are simulated, but safety.margin_m is 0: separation may "
+                       "be missed by what they cost.");
+  }
+}
+
+void note_ranges(const Mission& mission, Notes& notes) {
+  const safety::BarrierParameters barrier = barrier_parameters(mission);
+  const double derived = safety::derived_sensing_range(barrier);
+  if (barrier.sensing_range_m && *barrier.sensing_range_m < derived) {
+    notes.push_back(fmt::format("safety.sensing_range_m ({:.4g} m) is shorter than the {:.4g} m at which constraints begin to "
+                                "matter: they switch on with a jump.",
+                                *barrier.sensing_range_m, derived));
+  }
+  if (mission.safety.obstacles == Obstacles::kActiveOnly) {
+    notes.emplace_back("With `obstacles: active_only` a drone that fails in the air is avoided by nobody.");
+  }
+}
+
+void note_accounting(const Mission& mission, Notes& notes) {
+  const ControlSection& control = mission.control;
+  if (control.accounting == ergodic::Accounting::kPaperEq14) {
+    notes.emplace_back("With `accounting: paper_eq14` the total mass grows with every change of the active set: from then on "
+                       "drones spread evenly instead of covering their targets.");
+  }
+  if (control.memory_s && *control.memory_s < mission.field.size_m.sum() / control.speed_limit_m_s) {
+    notes.emplace_back("control.memory_s is shorter than it takes to cross the field: coverage is forgotten before it is made.");
+  }
+}
+
+void note_health(const Mission& mission, Notes& notes) {
+  const double age = mission.simulation.tracker.delay_s + tick_s(mission);
+  if (age > mission.health.tracking_timeout_s) {
+    notes.push_back(fmt::format("Positions are up to {:.3g} s old, health.tracking_timeout_s is {} s: every drone will count as "
+                                "lost.",
+                                age, mission.health.tracking_timeout_s));
+  }
+}
+
+void note_start(const Mission& mission, Notes& notes) {
+  const bool takes_off = std::ranges::any_of(mission.simulation.events,
+                                             [](const EventEntry& event) { return event.what == EventKind::kTakeOff; });
+  if (mission.simulation.start == StartState::kGrounded && !takes_off) {
+    notes.emplace_back("Drones start on the ground and no event lets them take off.");
+  }
+}
+
+}  // namespace
+
+std::vector<std::string> notes_on(const Mission& mission) {
+  Notes notes;
+  note_targets(mission, notes);
+  note_barrier(mission, notes);
+  note_ranges(mission, notes);
+  note_accounting(mission, notes);
+  note_health(mission, notes);
+  note_start(mission, notes);
+  return notes;
+}
+
+}  // namespace vigil::runtime

@@ -1,0 +1,100 @@
+#include "vigil/runtime/mission_setup.hpp"
+
+#include <algorithm>
+#include <iterator>
+
+namespace vigil::runtime {
+namespace {
+
+double default_gain(safety::BarrierKind kind) { return kind == safety::BarrierKind::kPaper ? 10.0 : 5.0; }
+
+}  // namespace
+
+field::Field monitored_field(const Mission& mission) {
+  return {.length_x = mission.field.size_m.x(), .length_y = mission.field.size_m.y()};
+}
+
+field::WorldFrame world_frame(const Mission& mission) {
+  return {.origin_W = mission.field.origin_m, .yaw_rad = mission.field.yaw_rad};
+}
+
+double tick_s(const Mission& mission) { return 1.0 / mission.control.rate_hz; }
+
+double sigma_min_m(const Mission& mission) {
+  return mission.targets.sigma_min_m.value_or(0.05 * monitored_field(mission).shorter_side());
+}
+
+double footprint_radius_m(const Mission& mission) {
+  return mission.sensor.footprint_radius_m.value_or(0.1 * monitored_field(mission).shorter_side());
+}
+
+safety::BarrierParameters barrier_parameters(const Mission& mission) {
+  const SafetySection& safety = mission.safety;
+  return {.kind = safety.barrier,
+          .separation_m = safety.separation_m,
+          .contact_distance_m = safety.contact_distance_m.value_or(0.5 * safety.separation_m),
+          .wall_distance_m = safety.wall_distance_m,
+          .no_fly_buffer_m = safety.no_fly_buffer_m.value_or(safety.wall_distance_m),
+          .u_max_m_s = mission.control.speed_limit_m_s,
+          .dt_s = tick_s(mission),
+          .pair_gain = safety.pair_gain.value_or(default_gain(safety.barrier)),
+          .wall_gain = safety.wall_gain.value_or(default_gain(safety.barrier)),
+          .lag_s = safety.lag_s,
+          .margin_m = safety.margin_m,
+          .sensing_range_m = safety.sensing_range_m,
+          .wall_range_m = safety.wall_range_m};
+}
+
+Vec2 target_in_field(const Mission& mission, const Vec2& point_W) {
+  return monitored_field(mission).clamp(world_frame(mission).point_to_field(point_W));
+}
+
+field::Polygon polygon_in_field(const Mission& mission, std::span<const Vec2> outline_W) {
+  const field::WorldFrame frame = world_frame(mission);
+  field::Polygon polygon;
+  polygon.vertices.reserve(outline_W.size());
+  for (const Vec2& vertex : outline_W) polygon.vertices.push_back(frame.point_to_field(vertex));
+  return polygon;
+}
+
+field::Cluster cluster_in_field(const Mission& mission, const ClusterEntry& cluster) {
+  std::vector<Vec2> targets;
+  targets.reserve(cluster.points_m.size());
+  for (const Vec2& point : cluster.points_m) targets.push_back(target_in_field(mission, point));
+  return {.name = cluster.name, .targets = std::move(targets), .weight = cluster.weight};
+}
+
+field::Area area_in_field(const Mission& mission, const AreaEntry& area) {
+  return {.name = area.name,
+          .outline = polygon_in_field(mission, area.outline_m),
+          .weight = area.weight,
+          .soft_edge_m = area.soft_edge_m};
+}
+
+field::Importance importance(const Mission& mission) {
+  field::Importance result;
+  for (const ClusterEntry& entry : mission.targets.clusters) result.clusters.push_back(cluster_in_field(mission, entry));
+  for (const AreaEntry& entry : mission.targets.areas) result.areas.push_back(area_in_field(mission, entry));
+  for (const NoFlyEntry& entry : mission.no_fly) result.no_fly.push_back(polygon_in_field(mission, entry.outline_m));
+  result.uniform_floor = mission.targets.uniform_floor;
+  result.sigma_min_m = sigma_min_m(mission);
+  return result;
+}
+
+std::vector<Vec2> starts_in_field(const Mission& mission) {
+  const field::WorldFrame frame = world_frame(mission);
+  std::vector<Vec2> starts;
+  starts.reserve(mission.drones.size());
+  for (const DroneEntry& drone : mission.drones) starts.push_back(frame.point_to_field(drone.start_m));
+  return starts;
+}
+
+std::vector<field::Segment> no_fly_edges(const Mission& mission) {
+  std::vector<field::Segment> result;
+  for (const NoFlyEntry& entry : mission.no_fly) {
+    std::ranges::copy(field::edges(polygon_in_field(mission, entry.outline_m)), std::back_inserter(result));
+  }
+  return result;
+}
+
+}  // namespace vigil::runtime

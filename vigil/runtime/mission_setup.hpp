@@ -1,0 +1,42 @@
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "vigil/core/field/field.hpp"
+#include "vigil/core/field/importance.hpp"
+#include "vigil/core/field/polygon.hpp"
+#include "vigil/core/safety/filter.hpp"
+#include "vigil/runtime/mission.hpp"
+
+/// From a mission, as its file says it, to the values of core/: field frame, defaults resolved.
+/// Precondition of all: a mission that load_mission or parse_mission returned.
+namespace vigil::runtime {
+
+[[nodiscard]] field::Field monitored_field(const Mission& mission);
+[[nodiscard]] field::WorldFrame world_frame(const Mission& mission);
+
+/// The time for which a velocity is held, seconds.
+[[nodiscard]] double tick_s(const Mission& mission);
+
+/// targets.sigma_min_m, by default 5 % of the field's shorter side.
+[[nodiscard]] double sigma_min_m(const Mission& mission);
+/// sensor.footprint_radius_m, by default 10 % of the field's shorter side.
+[[nodiscard]] double footprint_radius_m(const Mission& mission);
+/// All that the filter is to keep. Its ranges stay unset where the mission leaves them to be derived.
+[[nodiscard]] safety::BarrierParameters barrier_parameters(const Mission& mission);
+
+/// A target point (world frame) in the field frame, on the field's border where it lies outside.
+[[nodiscard]] Vec2 target_in_field(const Mission& mission, const Vec2& point_W);
+[[nodiscard]] field::Polygon polygon_in_field(const Mission& mission, std::span<const Vec2> outline_W);
+[[nodiscard]] field::Cluster cluster_in_field(const Mission& mission, const ClusterEntry& cluster);
+[[nodiscard]] field::Area area_in_field(const Mission& mission, const AreaEntry& area);
+
+/// Everything that says where to look, field frame.
+[[nodiscard]] field::Importance importance(const Mission& mission);
+/// In the order of Mission::drones, field frame.
+[[nodiscard]] std::vector<Vec2> starts_in_field(const Mission& mission);
+/// The edges of every no-fly polygon, in their order, field frame.
+[[nodiscard]] std::vector<field::Segment> no_fly_edges(const Mission& mission);
+
+}  // namespace vigil::runtime
