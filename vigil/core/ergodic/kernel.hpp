@@ -10,7 +10,7 @@ namespace vigil::ergodic {
 /// time, then two small products, with the drones side by side in the vector registers. A drone's gradient is the same
 /// to the last bit whatever its place among the others, and nothing depends on how the caller's data are aligned.
 ///
-/// Owns its work space (6 KiB for K = 10, 67 KiB for K = 64), which holds nothing from one call to the next: a copy
+/// Owns its work space (5 KiB for K = 10, 83 KiB for K = 64), which holds nothing from one call to the next: a copy
 /// costs as much and works alike. No call allocates. One thread at a time. The oracle is in literal_kernel.hpp.
 class Kernel {
  public:
