@@ -77,7 +77,8 @@ install_missing() {
 
 install_packages() {
   local -a packages become_root=()
-  mapfile -t packages < <(printf '%s\n' "$1" | cut -d' ' -f1)
+  mapfile -t packages <<<"$1"
+  packages=("${packages[@]%% *}")
   say "Missing on this system, to be installed with apt-get:"
   describe <<<"$1"
   if ((EUID != 0)); then
@@ -89,11 +90,14 @@ install_packages() {
     apt-get install -y --no-install-recommends "${packages[@]}"
 }
 
-# explain_other_system LINES: what this system, not Debian 12, has to be given by hand.
+# explain_other_system [LINES]: what this system, not Debian 12, has to be given by hand; LINES: what it surely lacks.
 explain_other_system() {
-  say "This is not Debian 12, so nothing is installed here. Missing (by Debian's package names):"
-  describe <<<"$1"
-  say "All that is needed:"
+  say "This is not Debian 12, so nothing is installed here."
+  if (($#)); then
+    say "Missing programs (by Debian's package names):"
+    describe <<<"$1"
+  fi
+  say "All that is needed (by Debian's package names):"
   wanted "${groups[@]}" | describe
   give_up "Install these with your system's package manager, then start this again."
 }
@@ -140,7 +144,7 @@ configure() {
   local status=0
   (cd "$root" && quietly "configure-$preset" "Configuring" cmake --preset "$preset" "$@") || status=$?
   ((status == 0)) && return
-  on_debian_12 || explain_other_system "$(wanted "${groups[@]}")"
+  on_debian_12 || explain_other_system
   exit "$status"
 }
 
