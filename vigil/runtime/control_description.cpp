@@ -80,20 +80,23 @@ void describe_distances(DescriptionVisitor& visitor, SafetySection& safety) {
 void describe(DescriptionVisitor& visitor, ControlSection& control) {
   visitor.number({.name = "rate_hz", .meaning = "the ticks per second; a velocity is held for one tick", .unit = "Hz"},
                  {1.0, 1000.0}, control.rate_hz);
-  visitor.number({.name = "speed_limit_m_s", .meaning = "the highest speed u_max of a drone", .unit = "m/s", .is_required = true},
-                 {0.0, 100.0, false}, control.speed_limit_m_s);
+  visitor.number(
+      {.name = "speed_limit_m_s", .meaning = "the highest speed u_max of a drone", .unit = "m/s", .is_required = true},
+      {0.0, 100.0, false}, control.speed_limit_m_s);
   visitor.choice({.name = "controller", .meaning = "what steers the drones to their targets"}, kController,
                  control.controller);
   visitor.number({.name = "fade",
                   .meaning = "the share of its usual size below which a weak gradient slows drones down; 0: (9) to the "
                              "letter, full speed always"},
                  {0.0, 1000.0}, control.fade);
-  visitor.whole_number({.name = "basis_max_index", .meaning = "the highest index K of the Fourier basis (5) on either axis"}, {1, 64},
-                       control.basis_max_index);
-  visitor.number({.name = "basis_smoothness", .meaning = "the exponent s of lambda_k = (1 + |k|^2)^-s: how much coarse scales come first"},
+  visitor.whole_number(
+      {.name = "basis_max_index", .meaning = "the highest index K of the Fourier basis (5) on either axis"}, {1, 64},
+      control.basis_max_index);
+  visitor.number({.name = "basis_smoothness",
+                  .meaning = "the exponent s of lambda_k = (1 + |k|^2)^-s: how much coarse scales come first"},
                  {0.0, 10.0, false}, control.basis_smoothness);
-  visitor.choice({.name = "accounting", .meaning = "how coverage is averaged when drones drop out or return"}, kAccounting,
-                 control.accounting);
+  visitor.choice({.name = "accounting", .meaning = "how coverage is averaged when drones drop out or return"},
+                 kAccounting, control.accounting);
   visitor.number({.name = "memory_s",
                   .meaning = "the time constant with which past coverage fades",
                   .unit = "s",
@@ -109,23 +112,24 @@ void describe(DescriptionVisitor& visitor, SafetySection& safety) {
                   .meaning = "the time constant with which a vehicle follows its velocity command; `lag_aware` only",
                   .unit = "s"},
                  {0.0, 10.0}, safety.lag_s);
-  visitor.number({.name = "margin_m",
-                  .meaning = "the distance added to separation_m for delay, noise and acceleration limits; `lag_aware` only",
-                  .unit = "m"},
-                 {0.0, 1000.0}, safety.margin_m);
+  visitor.number(
+      {.name = "margin_m",
+       .meaning = "the distance added to separation_m for delay, noise and acceleration limits; `lag_aware` only",
+       .unit = "m"},
+      {0.0, 1000.0}, safety.margin_m);
   describe_ranges(visitor, safety);
   visitor.choice({.name = "obstacles", .meaning = "which drones the others avoid"}, kObstacles, safety.obstacles);
 }
 
 void describe(DescriptionVisitor& visitor, HealthSection& health) {
-  visitor.number({.name = "tracking_timeout_s",
-                  .meaning = "the age of its position beyond which a drone is lost",
-                  .unit = "s"},
-                 {0.0, 60.0, false}, health.tracking_timeout_s);
+  visitor.number(
+      {.name = "tracking_timeout_s", .meaning = "the age of its position beyond which a drone is lost", .unit = "s"},
+      {0.0, 60.0, false}, health.tracking_timeout_s);
   visitor.number({.name = "link_timeout_s", .meaning = "the silence beyond which a drone is lost", .unit = "s"},
                  {0.0, 600.0, false}, health.link_timeout_s);
-  visitor.number({.name = "battery_reserve", .meaning = "the share of a full battery below which a drone stops covering"},
-                 {0.0, 0.95}, health.battery_reserve);
+  visitor.number(
+      {.name = "battery_reserve", .meaning = "the share of a full battery below which a drone stops covering"},
+      {0.0, 0.95}, health.battery_reserve);
   visitor.number({.name = "recovery_s",
                   .meaning = "the time for which a drone must be well before it is active again",
                   .unit = "s"},

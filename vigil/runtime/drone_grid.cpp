@@ -1,9 +1,9 @@
 #include "vigil/runtime/drone_grid.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
+
+#include <fmt/format.h>
 
 #include "vigil/runtime/mission_setup.hpp"
 
@@ -38,7 +38,9 @@ int rows_for(int count, int columns) { return (count + columns - 1) / columns; }
 /// Equal cells, a drone in the middle of each: the number of columns that makes the cells' shorter side longest.
 Grid widest_grid(const Mission& mission, int count) {
   const Vec2 free = free_size(mission);
-  const auto shorter_side = [&](int columns) { return std::min(free.x() / columns, free.y() / rows_for(count, columns)); };
+  const auto shorter_side = [&](int columns) {
+    return std::min(free.x() / columns, free.y() / rows_for(count, columns));
+  };
   int best = 1;
   for (int columns = 2; columns <= count; ++columns) {
     if (shorter_side(columns) > shorter_side(best)) best = columns;

@@ -1,8 +1,8 @@
-#include <fmt/format.h>
-
 #include <map>
 #include <set>
 #include <string_view>
+
+#include <fmt/format.h>
 
 #include "vigil/runtime/mission_checks.hpp"
 
@@ -35,12 +35,18 @@ class Course {
       case EventKind::kFail:
       case EventKind::kOverride:
       case EventKind::kGiveBack:
-      case EventKind::kLoseTracking: return check_drone(event);
-      case EventKind::kAddTarget: return add_target(event);
-      case EventKind::kMoveTarget: return check_target(event);
-      case EventKind::kRemoveTarget: return remove_target(event);
-      case EventKind::kSetWeight: return check_name(event);
-      case EventKind::kStartAfresh: return;
+      case EventKind::kLoseTracking:
+        return check_drone(event);
+      case EventKind::kAddTarget:
+        return add_target(event);
+      case EventKind::kMoveTarget:
+        return check_target(event);
+      case EventKind::kRemoveTarget:
+        return remove_target(event);
+      case EventKind::kSetWeight:
+        return check_name(event);
+      case EventKind::kStartAfresh:
+        return;
     }
   }
 
@@ -70,8 +76,8 @@ class Course {
 
   void check_drone(const EventEntry& event) const {
     if (event.drone == "all" || drones_.contains(event.drone)) return;
-    refuse("drone", "is no drone of this mission", fmt::format("must be all or an id, such as {}", mission_.drones.front().id),
-           "check the id");
+    refuse("drone", "is no drone of this mission",
+           fmt::format("must be all or an id, such as {}", mission_.drones.front().id), "check the id");
   }
 
   std::size_t& targets_of(const EventEntry& event) {

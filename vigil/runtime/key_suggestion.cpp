@@ -1,11 +1,11 @@
 #include "vigil/runtime/key_suggestion.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <numeric>
 #include <utility>
 #include <vector>
+
+#include <fmt/format.h>
 
 namespace vigil::runtime {
 namespace {
@@ -30,13 +30,15 @@ std::size_t edit_distance(std::string_view a, std::string_view b) {
 
 /// `speed_limit` for `speed_limit_m_s`: right but for the unit.
 bool lacks_only_the_unit(std::string_view unknown, std::string_view known) {
-  return unknown.size() >= 2 && known.size() > unknown.size() && known.starts_with(unknown) && known[unknown.size()] == '_';
+  return unknown.size() >= 2 && known.size() > unknown.size() && known.starts_with(unknown) &&
+         known[unknown.size()] == '_';
 }
 
 /// `separation_cm` for `separation_m`: the same words before the last underscores.
 bool has_another_unit(std::string_view unknown, std::string_view known) {
   const std::size_t words = known.rfind('_');
-  return words != std::string_view::npos && words >= 2 && unknown.size() > words && unknown.starts_with(known.substr(0, words + 1));
+  return words != std::string_view::npos && words >= 2 && unknown.size() > words &&
+         unknown.starts_with(known.substr(0, words + 1));
 }
 
 }  // namespace

@@ -10,8 +10,8 @@
 #include "vigil/core/safety/filter.hpp"
 
 /// A mission as its file says it: everything adjustable, once. Points are in the WORLD frame here (operators' and
-/// trackers'); mission_setup.hpp turns them into the field-frame values of core/. Units stand in the names. Defaults that
-/// depend on other values are `optional` here and resolved in mission_setup.hpp.
+/// trackers'); mission_setup.hpp turns them into the field-frame values of core/. Units stand in the names. Defaults
+/// that depend on other values are `optional` here and resolved in mission_setup.hpp.
 namespace vigil::runtime {
 
 struct FieldSection {
@@ -75,9 +75,9 @@ struct ControlSection {
   double rate_hz = 50.0;
   double speed_limit_m_s = 0.0;  ///< u_max
   ControllerKind controller = ControllerKind::kGradient;
-  double fade = 0.02;            ///< delta of the faded gradient, in units of gradient_scale(); 0: (9) to the letter
-  int basis_max_index = 10;      ///< K
-  double basis_smoothness = 1.5; ///< s of lambda_k
+  double fade = 0.02;             ///< delta of the faded gradient, in units of gradient_scale(); 0: (9) to the letter
+  int basis_max_index = 10;       ///< K
+  double basis_smoothness = 1.5;  ///< s of lambda_k
   ergodic::Accounting accounting = ergodic::Accounting::kDroneTime;
   std::optional<double> memory_s;  ///< none: a plain average
   friend bool operator==(const ControlSection&, const ControlSection&) = default;
@@ -123,22 +123,22 @@ enum class VehicleModel : std::uint8_t { kIdeal, kFirstOrderLag };
 
 struct VehicleSection {
   VehicleModel model = VehicleModel::kIdeal;
-  double lag_s = 0.0;                                ///< first_order_lag: v' = (u - v)/lag
-  std::optional<double> acceleration_limit_m_s2;     ///< first_order_lag: |v'| at most this; none: no limit
-  double command_delay_s = 0.0;                      ///< from the controller's decision to the vehicle's reaction
-  double altitude_m = 1.0;                           ///< where it flies
-  double take_off_s = 2.0;                           ///< from the ground to there
-  double landing_s = 2.0;                            ///< from there to the ground
-  double emergency_s = 0.5;                          ///< from there to the ground with the motors off
+  double lag_s = 0.0;                             ///< first_order_lag: v' = (u - v)/lag
+  std::optional<double> acceleration_limit_m_s2;  ///< first_order_lag: |v'| at most this; none: no limit
+  double command_delay_s = 0.0;                   ///< from the controller's decision to the vehicle's reaction
+  double altitude_m = 1.0;                        ///< where it flies
+  double take_off_s = 2.0;                        ///< from the ground to there
+  double landing_s = 2.0;                         ///< from there to the ground
+  double emergency_s = 0.5;                       ///< from there to the ground with the motors off
   friend bool operator==(const VehicleSection&, const VehicleSection&) = default;
 };
 
 struct TrackerSection {
-  double noise_m = 0.0;              ///< standard deviation per axis
-  double velocity_noise_m_s = 0.0;   ///< standard deviation per axis
-  double delay_s = 0.0;              ///< age of a measurement when it arrives
-  double dropouts_per_min = 0.0;     ///< per drone, on average
-  double dropout_s = 0.5;            ///< mean length of one
+  double noise_m = 0.0;             ///< standard deviation per axis
+  double velocity_noise_m_s = 0.0;  ///< standard deviation per axis
+  double delay_s = 0.0;             ///< age of a measurement when it arrives
+  double dropouts_per_min = 0.0;    ///< per drone, on average
+  double dropout_s = 0.5;           ///< mean length of one
   friend bool operator==(const TrackerSection&, const TrackerSection&) = default;
 };
 
@@ -166,7 +166,7 @@ struct EventEntry {
   std::string drone;  ///< an id, or "all"; for those that concern drones
   std::string cluster;
   int target = 0;
-  Vec2 point_m = Vec2::Zero();     ///< world frame
+  Vec2 point_m = Vec2::Zero();       ///< world frame
   Vec2 velocity_m_s = Vec2::Zero();  ///< world frame
   double weight = 0.0;
   double for_s = 0.0;

@@ -1,11 +1,11 @@
 #include "vigil/runtime/mission_checks.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <numeric>
+
+#include <fmt/format.h>
 
 #include "vigil/runtime/mission_setup.hpp"
 
@@ -120,15 +120,15 @@ void check_vehicle(const Mission& mission, const MissionSource& source) {
   if (vehicle.model == VehicleModel::kFirstOrderLag && vehicle.lag_s == 0.0) {
     source.refuse({.place = "",
                    .key = "simulation.vehicle.lag_s",
-                   .value = "",
-                   .problem = "is zero or missing",
+                   .value = fmt::format("{:.6g}", vehicle.lag_s),
+                   .problem = "is no time constant",
                    .valid = "must be above 0 s for the model `first_order_lag`",
                    .advice = "give the vehicle's time constant, or take `model: ideal`"});
   }
   if (mission.health.landed_height_m >= vehicle.altitude_m) {
     source.refuse({.place = "",
                    .key = "health.landed_height_m",
-                   .value = "",
+                   .value = fmt::format("{:.6g}", mission.health.landed_height_m),
                    .problem = "would take flying drones for landed ones",
                    .valid = fmt::format("must be below simulation.vehicle.altitude_m, {:.6g} m", vehicle.altitude_m),
                    .advice = "take a lower height, or fly higher"});
@@ -188,22 +188,25 @@ void check_room(const Mission& mission, const MissionSource& source, double apar
 
 void check_start(const Mission& mission, const MissionSource& source, std::size_t i, const Vec2& start) {
   const auto refuse_start = [&](std::string problem, std::string valid) {
-    source.refuse({.place = "",
-                   .key = fmt::format("drones[{}].start_m", i),
-                   .value = fmt::format("[{:.6g}, {:.6g}]", mission.drones[i].start_m.x(), mission.drones[i].start_m.y()),
-                   .problem = std::move(problem),
-                   .valid = std::move(valid),
-                   .advice = "move the start"});
+    source.refuse(
+        {.place = "",
+         .key = fmt::format("drones[{}].start_m", i),
+         .value = fmt::format("[{:.6g}, {:.6g}]", mission.drones[i].start_m.x(), mission.drones[i].start_m.y()),
+         .problem = std::move(problem),
+         .valid = std::move(valid),
+         .advice = "move the start"});
   };
   const field::Field field = monitored_field(mission);
   const double from_wall = std::min({start.x(), start.y(), field.length_x - start.x(), field.length_y - start.y()});
   if (from_wall < -rounding_m(mission)) {
-    refuse_start("is outside the field", fmt::format("must be inside the field of {:.6g} m x {:.6g} m at field.origin_m",
-                                                     field.length_x, field.length_y));
+    refuse_start("is outside the field",
+                 fmt::format("must be inside the field of {:.6g} m x {:.6g} m at field.origin_m", field.length_x,
+                             field.length_y));
   }
   if (from_wall < mission.safety.wall_distance_m - rounding_m(mission)) {
-    refuse_start(fmt::format("is {:.6g} m from the field's border", from_wall),
-                 fmt::format("must be at least safety.wall_distance_m, {:.6g} m, from it", mission.safety.wall_distance_m));
+    refuse_start(
+        fmt::format("is {:.6g} m from the field's border", from_wall),
+        fmt::format("must be at least safety.wall_distance_m, {:.6g} m, from it", mission.safety.wall_distance_m));
   }
 }
 
@@ -213,18 +216,20 @@ void check_starts_and_no_fly(const Mission& mission, const MissionSource& source
     const field::Polygon polygon = polygon_in_field(mission, entry.outline_m);
     for (std::size_t i = 0; i < starts.size(); ++i) {
       if (field::signed_distance(polygon, starts[i]) >= buffer - rounding_m(mission)) continue;
-      source.refuse({.place = "",
-                     .key = fmt::format("drones[{}].start_m", i),
-                     .value = fmt::format("[{:.6g}, {:.6g}]", mission.drones[i].start_m.x(), mission.drones[i].start_m.y()),
-                     .problem = fmt::format("is in or too near to the no-fly polygon {}", entry.name),
-                     .valid = fmt::format("must be at least {:.6g} m from it", buffer),
-                     .advice = "move the start; with a drone_grid, list the drones instead"});
+      source.refuse(
+          {.place = "",
+           .key = fmt::format("drones[{}].start_m", i),
+           .value = fmt::format("[{:.6g}, {:.6g}]", mission.drones[i].start_m.x(), mission.drones[i].start_m.y()),
+           .problem = fmt::format("is in or too near to the no-fly polygon {}", entry.name),
+           .valid = fmt::format("must be at least {:.6g} m from it", buffer),
+           .advice = "move the start; with a drone_grid, list the drones instead"});
     }
   }
 }
 
 /// Sweeps from left to right, so that only drones near in x are compared.
-void check_overlaps(const Mission& mission, const MissionSource& source, const std::vector<Vec2>& starts, double apart) {
+void check_overlaps(const Mission& mission, const MissionSource& source, const std::vector<Vec2>& starts,
+                    double apart) {
   std::vector<std::size_t> order(starts.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
   std::ranges::stable_sort(order, {}, [&](std::size_t i) { return starts[i].x(); });

@@ -3,8 +3,8 @@
 #include "vigil/runtime/mission.hpp"
 #include "vigil/runtime/mission_source.hpp"
 
-/// How the values of a mission fit together, beyond the range of each. Every check throws MissionError by `source`, with
-/// the key, the value, what is allowed and what to do.
+/// How the values of a mission fit together, beyond the range of each. Every check throws MissionError by `source`,
+/// with the key, the value, what is allowed and what to do.
 namespace vigil::runtime {
 
 /// Field, control, safety, health, vehicle: numbers against each other.

@@ -1,9 +1,9 @@
 #include "vigil/runtime/mission_description.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <array>
+
+#include <fmt/format.h>
 
 namespace vigil::runtime {
 namespace {
@@ -43,9 +43,10 @@ void describe(DescriptionVisitor& visitor, Mission& mission) {
                   [&](DescriptionVisitor& v) { describe(v, mission.field); });
   visitor.section({.name = "targets", .meaning = "where the swarm should look; without any, drones hover"},
                   [&](DescriptionVisitor& v) { describe(v, mission.targets); });
-  visitor.list({.name = "no_fly", .meaning = "the polygons that no drone enters and where nothing is looked at"}, {0, 200},
-               sections_of(mission.no_fly));
-  visitor.list({.name = "drones", .meaning = "the swarm, one entry a drone"}, {1, 100'000}, sections_of(mission.drones));
+  visitor.list({.name = "no_fly", .meaning = "the polygons that no drone enters and where nothing is looked at"},
+               {0, 200}, sections_of(mission.no_fly));
+  visitor.list({.name = "drones", .meaning = "the swarm, one entry a drone"}, {1, 100'000},
+               sections_of(mission.drones));
   visitor.optional_section({.name = "drone_grid", .meaning = "a swarm on a regular grid, instead of `drones`"},
                            {.is_present = mission.drone_grid.has_value(),
                             .create = [&] { mission.drone_grid.emplace(); },
@@ -77,25 +78,28 @@ void describe(DescriptionVisitor& visitor, FieldSection& field) {
 void describe(DescriptionVisitor& visitor, TargetsSection& targets) {
   visitor.list({.name = "clusters", .meaning = "the named groups of target points; each becomes a Gaussian"}, {0, 1000},
                sections_of(targets.clusters));
-  visitor.list({.name = "areas", .meaning = "the drawn areas to be watched evenly"}, {0, 200}, sections_of(targets.areas));
+  visitor.list({.name = "areas", .meaning = "the drawn areas to be watched evenly"}, {0, 200},
+               sections_of(targets.areas));
   visitor.number({.name = "sigma_min_m",
                   .meaning = "the least spread of a cluster, so that a single point is a proper Gaussian",
                   .unit = "m",
                   .default_text = "5 % of the field's shorter side"},
                  kLength, targets.sigma_min_m);
-  visitor.number({.name = "uniform_floor", .meaning = "the share of all attention that is spread evenly over the field"},
-                 {0.0, 1.0}, targets.uniform_floor);
+  visitor.number(
+      {.name = "uniform_floor", .meaning = "the share of all attention that is spread evenly over the field"},
+      {0.0, 1.0}, targets.uniform_floor);
   visitor.choice({.name = "outside_field", .meaning = "what becomes of a target outside the field"}, kOutsideField,
                  targets.outside_field);
 }
 
 void describe(DescriptionVisitor& visitor, ClusterEntry& cluster) {
-  visitor.text({.name = "name", .meaning = "a name, unique among clusters and areas", .is_required = true}, TextRule::kName,
-               cluster.name);
+  visitor.text({.name = "name", .meaning = "a name, unique among clusters and areas", .is_required = true},
+               TextRule::kName, cluster.name);
   visitor.points({.name = "points_m", .meaning = "the target points, world frame", .unit = "m", .is_required = true},
                  kWorldCoordinate, {1, 10'000}, cluster.points_m);
-  visitor.number({.name = "weight", .meaning = "the factor on the number of its points in the cluster's share of attention"},
-                 kWeight, cluster.weight);
+  visitor.number(
+      {.name = "weight", .meaning = "the factor on the number of its points in the cluster's share of attention"},
+      kWeight, cluster.weight);
   visitor.number({.name = "revisit_s",
                   .meaning = "the deadline: no part of it is to stay unseen for longer",
                   .unit = "s",
@@ -104,15 +108,15 @@ void describe(DescriptionVisitor& visitor, ClusterEntry& cluster) {
 }
 
 void describe(DescriptionVisitor& visitor, AreaEntry& area) {
-  visitor.text({.name = "name", .meaning = "a name, unique among clusters and areas", .is_required = true}, TextRule::kName,
-               area.name);
+  visitor.text({.name = "name", .meaning = "a name, unique among clusters and areas", .is_required = true},
+               TextRule::kName, area.name);
   visitor.points({.name = "outline_m",
                   .meaning = "the vertices of a polygon that does not cross itself, world frame",
                   .unit = "m",
                   .is_required = true},
                  kWorldCoordinate, {3, kMostVertices}, area.outline_m);
-  visitor.number({.name = "weight", .meaning = "the number of target points that get as much attention as the area"}, kWeight,
-                 area.weight);
+  visitor.number({.name = "weight", .meaning = "the number of target points that get as much attention as the area"},
+                 kWeight, area.weight);
   visitor.number({.name = "soft_edge_m", .meaning = "how far attention fades out beyond the outline", .unit = "m"},
                  kLengthOrZero, area.soft_edge_m);
   visitor.number({.name = "revisit_s",
@@ -123,8 +127,8 @@ void describe(DescriptionVisitor& visitor, AreaEntry& area) {
 }
 
 void describe(DescriptionVisitor& visitor, NoFlyEntry& no_fly) {
-  visitor.text({.name = "name", .meaning = "a name, unique among no-fly polygons", .is_required = true}, TextRule::kName,
-               no_fly.name);
+  visitor.text({.name = "name", .meaning = "a name, unique among no-fly polygons", .is_required = true},
+               TextRule::kName, no_fly.name);
   visitor.points({.name = "outline_m",
                   .meaning = "the vertices of a polygon that does not cross itself, world frame",
                   .unit = "m",
@@ -133,15 +137,17 @@ void describe(DescriptionVisitor& visitor, NoFlyEntry& no_fly) {
 }
 
 void describe(DescriptionVisitor& visitor, DroneEntry& drone) {
-  visitor.text({.name = "id", .meaning = "a unique id; not `all`, which events use for every drone", .is_required = true},
-               TextRule::kIdentifier, drone.id);
+  visitor.text(
+      {.name = "id", .meaning = "a unique id; not `all`, which events use for every drone", .is_required = true},
+      TextRule::kIdentifier, drone.id);
   visitor.point({.name = "start_m", .meaning = "where it starts, world frame", .unit = "m", .is_required = true},
                 kWorldCoordinate, drone.start_m);
 }
 
 void describe(DescriptionVisitor& visitor, DroneGridSection& grid) {
   visitor.whole_number({.name = "count", .meaning = "how many drones", .is_required = true}, {1, 100'000}, grid.count);
-  visitor.text({.name = "prefix", .meaning = "the beginning of every id; a number from 1 follows"}, TextRule::kIdentifier, grid.prefix);
+  visitor.text({.name = "prefix", .meaning = "the beginning of every id; a number from 1 follows"},
+               TextRule::kIdentifier, grid.prefix);
   visitor.number({.name = "spacing_m",
                   .meaning = "the distance between neighbours of a square grid in the middle of the field",
                   .unit = "m",
@@ -161,9 +167,12 @@ std::string interval(const WholeRange& range, std::string_view unit) {
 
 std::string_view rule_in_words(TextRule rule) {
   switch (rule) {
-    case TextRule::kIdentifier: return "1 to 32 of the characters A-Z a-z 0-9 _ -";
-    case TextRule::kName: return "one line of 1 to 64 characters";
-    case TextRule::kProse: break;
+    case TextRule::kIdentifier:
+      return "1 to 32 of the characters A-Z a-z 0-9 _ -";
+    case TextRule::kName:
+      return "one line of 1 to 64 characters";
+    case TextRule::kProse:
+      break;
   }
   return "text of at most 2000 characters";
 }
@@ -174,7 +183,8 @@ bool follows(TextRule rule, std::string_view text) {
       return !text.empty() && text.size() <= 32 && std::ranges::all_of(text, is_identifier_character);
     case TextRule::kName:
       return !text.empty() && characters(text) <= 64 && std::ranges::none_of(text, is_control);
-    case TextRule::kProse: break;
+    case TextRule::kProse:
+      break;
   }
   const auto is_unprintable = [](char c) { return is_control(c) && c != '\n' && c != '\t'; };
   return characters(text) <= 2000 && std::ranges::none_of(text, is_unprintable);

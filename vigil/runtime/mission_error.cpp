@@ -1,8 +1,8 @@
 #include "vigil/runtime/mission_error.hpp"
 
-#include <fmt/format.h>
-
 #include <utility>
+
+#include <fmt/format.h>
 
 namespace vigil::runtime {
 namespace {
@@ -21,10 +21,14 @@ bool is_second_control_set(std::string_view text, std::size_t i) {
 
 std::string escaped(char character) {
   switch (character) {
-    case '\n': return "\\n";
-    case '\r': return "\\r";
-    case '\t': return "\\t";
-    default: return fmt::format("\\x{:02x}", static_cast<unsigned char>(character));
+    case '\n':
+      return "\\n";
+    case '\r':
+      return "\\r";
+    case '\t':
+      return "\\t";
+    default:
+      return fmt::format("\\x{:02x}", static_cast<unsigned char>(character));
   }
 }
 

@@ -1,10 +1,10 @@
 #include "vigil/runtime/mission_explanation.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
-#include <nlohmann/json.hpp>
 #include <numeric>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
 #include "vigil/core/field/density.hpp"
 #include "vigil/runtime/mission_description.hpp"
@@ -28,11 +28,13 @@ std::vector<Share> shares_of(const Mission& mission) {
   std::vector<Share> shares;
   for (const ClusterEntry& cluster : mission.targets.clusters) {
     const std::size_t points = cluster.points_m.size();
-    shares.push_back({"cluster", cluster.name, cluster.weight * static_cast<double>(points), points, cluster.revisit_s});
+    shares.push_back(
+        {"cluster", cluster.name, cluster.weight * static_cast<double>(points), points, cluster.revisit_s});
   }
-  for (const AreaEntry& area : mission.targets.areas) shares.push_back({"area", area.name, area.weight, 0, area.revisit_s});
-  const double mass =
-      std::accumulate(shares.begin(), shares.end(), 0.0, [](double sum, const Share& share) { return sum + share.share; });
+  for (const AreaEntry& area : mission.targets.areas)
+    shares.push_back({"area", area.name, area.weight, 0, area.revisit_s});
+  const double mass = std::accumulate(shares.begin(), shares.end(), 0.0,
+                                      [](double sum, const Share& share) { return sum + share.share; });
   const double floor = mission.targets.uniform_floor;
   for (Share& share : shares) share.share = mass > 0.0 ? share.share / mass * (1.0 - floor) : 0.0;
   if (floor > 0.0) shares.push_back({"floor", "everywhere", mass > 0.0 ? floor : 1.0, 0, std::nullopt});
@@ -58,13 +60,15 @@ std::string line(std::string_view label, std::string_view text) { return fmt::fo
 std::string explain_field(const Mission& mission) {
   const FieldSection& field = mission.field;
   std::string text = "field\n";
-  text += line("size", fmt::format("{:.6g} m x {:.6g} m, {:.6g} m^2", field.size_m.x(), field.size_m.y(), field.size_m.prod()));
-  text += line("placed", fmt::format("corner at [{:.6g}, {:.6g}] m in the world, turned by {:.6g} rad", field.origin_m.x(),
-                                     field.origin_m.y(), field.yaw_rad));
+  text += line("size",
+               fmt::format("{:.6g} m x {:.6g} m, {:.6g} m^2", field.size_m.x(), field.size_m.y(), field.size_m.prod()));
+  text += line("placed", fmt::format("corner at [{:.6g}, {:.6g}] m in the world, turned by {:.6g} rad",
+                                     field.origin_m.x(), field.origin_m.y(), field.yaw_rad));
   for (const NoFlyEntry& entry : mission.no_fly) {
     const double area = field::area(polygon_in_field(mission, entry.outline_m));
-    text += line("no-fly", fmt::format("{}, {} vertices, {:.6g} m^2, kept {} away from", entry.name, entry.outline_m.size(), area,
-                                       in_words(barrier_parameters(mission).no_fly_buffer_m, "m")));
+    text +=
+        line("no-fly", fmt::format("{}, {} vertices, {:.6g} m^2, kept {} away from", entry.name, entry.outline_m.size(),
+                                   area, in_words(barrier_parameters(mission).no_fly_buffer_m, "m")));
   }
   return text;
 }
@@ -95,16 +99,19 @@ std::string explain_drones(const Mission& mission) {
   if (mission.drones.size() > kMostShown) ids += fmt::format(", ... {}", mission.drones.back().id);
   std::string text = "drones\n";
   text += line("swarm", fmt::format("{}: {}", mission.drones.size(), ids));
-  text += line("sees", fmt::format("places within {}", given_or_default(mission.sensor.footprint_radius_m,
-                                                                      footprint_radius_m(mission))));
+  text += line("sees", fmt::format("places within {}",
+                                   given_or_default(mission.sensor.footprint_radius_m, footprint_radius_m(mission))));
   return text;
 }
 
 std::string_view meaning_of(ergodic::Accounting accounting) {
   switch (accounting) {
-    case ergodic::Accounting::kDroneTime: return "every drone-second counts alike; the paper prints (14) otherwise";
-    case ergodic::Accounting::kElapsedTime: return "every second counts alike, the likely intent of (14)";
-    case ergodic::Accounting::kPaperEq14: break;
+    case ergodic::Accounting::kDroneTime:
+      return "every drone-second counts alike; the paper prints (14) otherwise";
+    case ergodic::Accounting::kElapsedTime:
+      return "every second counts alike, the likely intent of (14)";
+    case ergodic::Accounting::kPaperEq14:
+      break;
   }
   return "(14) as printed";
 }
@@ -117,8 +124,8 @@ std::string explain_control(const Mission& mission) {
   text += line("controller", fmt::format("{}, fade {:.6g}{}", name_of(control.controller), control.fade,
                                          control.fade == 0.0 ? ": (9) to the letter" : ": (9) without chatter"));
   text += line("basis", fmt::format("{} coefficients (K = {}), lambda_k = (1 + |k|^2)^-{:.6g}",
-                                    (control.basis_max_index + 1) * (control.basis_max_index + 1), control.basis_max_index,
-                                    control.basis_smoothness));
+                                    (control.basis_max_index + 1) * (control.basis_max_index + 1),
+                                    control.basis_max_index, control.basis_smoothness));
   text += line("accounting", fmt::format("{}: {}", name_of(control.accounting), meaning_of(control.accounting)));
   text += line("memory", control.memory_s ? fmt::format("past coverage fades with {}", in_words(*control.memory_s, "s"))
                                           : "none: a plain average over all time, as in (4)");
@@ -127,20 +134,22 @@ std::string explain_control(const Mission& mission) {
 
 std::string explain_barrier(const Mission& mission, const safety::BarrierParameters& barrier) {
   if (barrier.kind == safety::BarrierKind::kPaper) {
-    return fmt::format("paper: (10), (11) as printed, gamma(h) = {:.6g} h^3 for pairs, {:.6g} h^3 for walls", barrier.pair_gain,
-                       barrier.wall_gain);
+    return fmt::format("paper: (10), (11) as printed, gamma(h) = {:.6g} h^3 for pairs, {:.6g} h^3 for walls",
+                       barrier.pair_gain, barrier.wall_gain);
   }
-  return fmt::format("lag_aware: keeps R_z = {:.6g} m between points {:.6g} s ahead, gamma(h) = {:.6g} h for pairs, {:.6g} h "
-                     "for walls",
-                     safety::barrier_radius(barrier), mission.safety.lag_s, barrier.pair_gain, barrier.wall_gain);
+  return fmt::format(
+      "lag_aware: keeps R_z = {:.6g} m between points {:.6g} s ahead, gamma(h) = {:.6g} h for pairs, {:.6g} h "
+      "for walls",
+      safety::barrier_radius(barrier), mission.safety.lag_s, barrier.pair_gain, barrier.wall_gain);
 }
 
 std::string explain_safety(const Mission& mission) {
   const safety::BarrierParameters barrier = barrier_parameters(mission);
   std::string text = "safety\n";
   text += line("barrier", explain_barrier(mission, barrier));
-  text += line("separation", fmt::format("R_s {}; bodies touch at {}", in_words(barrier.separation_m, "m"),
-                                         given_or_default(mission.safety.contact_distance_m, barrier.contact_distance_m)));
+  text +=
+      line("separation", fmt::format("R_s {}; bodies touch at {}", in_words(barrier.separation_m, "m"),
+                                     given_or_default(mission.safety.contact_distance_m, barrier.contact_distance_m)));
   text += line("walls", fmt::format("R_wall {}", in_words(barrier.wall_distance_m, "m")));
   text += line("sensing", fmt::format("{}; at least {} is needed",
                                       given_or_derived(barrier.sensing_range_m, safety::derived_sensing_range(barrier)),
@@ -158,12 +167,17 @@ std::string event_in_words(const EventEntry& event) {
   if (!event.cluster.empty()) text += " " + event.cluster;
   if (event.target > 0) text += fmt::format(" target {}", event.target);
   switch (event.what) {
-    case EventKind::kOverride: return text + " at " + at(event.velocity_m_s) + " m/s";
-    case EventKind::kLoseTracking: return text + " for " + in_words(event.for_s, "s");
+    case EventKind::kOverride:
+      return text + " at " + at(event.velocity_m_s) + " m/s";
+    case EventKind::kLoseTracking:
+      return text + " for " + in_words(event.for_s, "s");
     case EventKind::kAddTarget:
-    case EventKind::kMoveTarget: return text + " to " + at(event.point_m) + " m";
-    case EventKind::kSetWeight: return text + fmt::format(" to {:.6g}", event.weight);
-    default: return text;
+    case EventKind::kMoveTarget:
+      return text + " to " + at(event.point_m) + " m";
+    case EventKind::kSetWeight:
+      return text + fmt::format(" to {:.6g}", event.weight);
+    default:
+      return text;
   }
 }
 
@@ -175,7 +189,8 @@ std::string explain_simulation(const Mission& mission) {
   text += line("vehicle", simulation.vehicle.model == VehicleModel::kIdeal
                               ? "ideal: its velocity is its command, (3)"
                               : fmt::format("first_order_lag of {}", in_words(simulation.vehicle.lag_s, "s")));
-  for (const EventEntry& event : simulation.events) text += line(fmt::format("{:.6g} s", event.at_s), event_in_words(event));
+  for (const EventEntry& event : simulation.events)
+    text += line(fmt::format("{:.6g} s", event.at_s), event_in_words(event));
   return text;
 }
 

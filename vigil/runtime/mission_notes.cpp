@@ -1,6 +1,6 @@
-#include <fmt/format.h>
-
 #include <algorithm>
+
+#include <fmt/format.h>
 
 #include "vigil/runtime/mission_explanation.hpp"
 #include "vigil/runtime/mission_setup.hpp"
@@ -23,18 +23,21 @@ void note_barrier(const Mission& mission, Notes& notes) {
   const VehicleSection& vehicle = mission.simulation.vehicle;
   const TrackerSection& tracker = mission.simulation.tracker;
   if (is_paper_barrier(mission) && has_lag(mission)) {
-    notes.emplace_back("The barrier `paper` is safe only for vehicles that follow their velocity at once; this vehicle lags: "
-                       "expect violations, or take `barrier: lag_aware`.");
+    notes.emplace_back(
+        "The barrier `paper` is safe only for vehicles that follow their velocity at once; this vehicle lags: "
+        "expect violations, or take `barrier: lag_aware`.");
   }
   if (!is_paper_barrier(mission) && has_lag(mission) && mission.safety.lag_s < vehicle.lag_s) {
-    notes.push_back(fmt::format("safety.lag_s ({} s) is less than the vehicle's lag ({} s): separation is not guaranteed.",
-                                mission.safety.lag_s, vehicle.lag_s));
+    notes.push_back(
+        fmt::format("safety.lag_s ({} s) is less than the vehicle's lag ({} s): separation is not guaranteed.",
+                    mission.safety.lag_s, vehicle.lag_s));
   }
   const bool is_imperfect = vehicle.command_delay_s > 0.0 || vehicle.acceleration_limit_m_s2 || tracker.noise_m > 0.0 ||
                             tracker.delay_s > 0.0 || tracker.dropouts_per_min > 0.0;
   if (is_imperfect && mission.safety.margin_m == 0.0) {
-    notes.emplace_back("Delay, noise, dropouts or an acceleration limit are simulated, but safety.margin_m is 0: separation may "
-                       "be missed by what they cost.");
+    notes.emplace_back(
+        "Delay, noise, dropouts or an acceleration limit are simulated, but safety.margin_m is 0: separation may "
+        "be missed by what they cost.");
   }
 }
 
@@ -42,9 +45,10 @@ void note_ranges(const Mission& mission, Notes& notes) {
   const safety::BarrierParameters barrier = barrier_parameters(mission);
   const double derived = safety::derived_sensing_range(barrier);
   if (barrier.sensing_range_m && *barrier.sensing_range_m < derived) {
-    notes.push_back(fmt::format("safety.sensing_range_m ({:.4g} m) is shorter than the {:.4g} m at which constraints begin to "
-                                "matter: they switch on with a jump.",
-                                *barrier.sensing_range_m, derived));
+    notes.push_back(
+        fmt::format("safety.sensing_range_m ({:.4g} m) is shorter than the {:.4g} m at which constraints begin to "
+                    "matter: they switch on with a jump.",
+                    *barrier.sensing_range_m, derived));
   }
   if (mission.safety.obstacles == Obstacles::kActiveOnly) {
     notes.emplace_back("With `obstacles: active_only` a drone that fails in the air is avoided by nobody.");
@@ -54,20 +58,23 @@ void note_ranges(const Mission& mission, Notes& notes) {
 void note_accounting(const Mission& mission, Notes& notes) {
   const ControlSection& control = mission.control;
   if (control.accounting == ergodic::Accounting::kPaperEq14) {
-    notes.emplace_back("With `accounting: paper_eq14` the total mass grows with every change of the active set: from then on "
-                       "drones spread evenly instead of covering their targets.");
+    notes.emplace_back(
+        "With `accounting: paper_eq14` the total mass grows with every change of the active set: from then on "
+        "drones spread evenly instead of covering their targets.");
   }
   if (control.memory_s && *control.memory_s < mission.field.size_m.sum() / control.speed_limit_m_s) {
-    notes.emplace_back("control.memory_s is shorter than it takes to cross the field: coverage is forgotten before it is made.");
+    notes.emplace_back(
+        "control.memory_s is shorter than it takes to cross the field: coverage is forgotten before it is made.");
   }
 }
 
 void note_health(const Mission& mission, Notes& notes) {
   const double age = mission.simulation.tracker.delay_s + tick_s(mission);
   if (age > mission.health.tracking_timeout_s) {
-    notes.push_back(fmt::format("Positions are up to {:.3g} s old, health.tracking_timeout_s is {} s: every drone will count as "
-                                "lost.",
-                                age, mission.health.tracking_timeout_s));
+    notes.push_back(
+        fmt::format("Positions are up to {:.3g} s old, health.tracking_timeout_s is {} s: every drone will count as "
+                    "lost.",
+                    age, mission.health.tracking_timeout_s));
   }
 }
 

@@ -1,10 +1,10 @@
 #include "vigil/runtime/mission_reader.hpp"
 
-#include <fmt/format.h>
-#include <fmt/ranges.h>
-
 #include <algorithm>
 #include <utility>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "vigil/runtime/key_suggestion.hpp"
 #include "vigil/runtime/mission_description.hpp"
@@ -20,10 +20,14 @@ bool is_within(double value, const Range& range) {
 std::string what_it_is(const YamlNode& node) {
   switch (node.kind) {
     case YamlNode::Kind::kEmpty:
-    case YamlNode::Kind::kUnset: return "is empty";
-    case YamlNode::Kind::kScalar: return "is a single value";
-    case YamlNode::Kind::kList: return "is a list";
-    case YamlNode::Kind::kMap: break;
+    case YamlNode::Kind::kUnset:
+      return "is empty";
+    case YamlNode::Kind::kScalar:
+      return "is a single value";
+    case YamlNode::Kind::kList:
+      return "is a list";
+    case YamlNode::Kind::kMap:
+      break;
   }
   return "is a section";
 }
@@ -39,8 +43,8 @@ class Reader final : public DescriptionVisitor {
   explicit Reader(const MissionSource& source) : source_(source) {}
 
   void read(Mission& mission) {
-    inside(source_.root(), {}, std::nullopt, "must be a section of `key: value` lines", "start from missions/paper.yaml",
-           [&](DescriptionVisitor& visitor) { describe(visitor, mission); });
+    inside(source_.root(), {}, std::nullopt, "must be a section of `key: value` lines",
+           "start from missions/paper.yaml", [&](DescriptionVisitor& visitor) { describe(visitor, mission); });
   }
 
   void number(const Key& key, const Range& range, double& value) override {
@@ -113,7 +117,7 @@ class Reader final : public DescriptionVisitor {
 
   void variants(const Key& key, std::span<const Choice> choices, std::size_t& chosen, const Describe& rest) override {
     visit_choice(key, choices, chosen);
-    if (scopes_.back().missing) end_scope();  // without it nothing can be said about the other keys
+    if (scopes_.back().missing) source_.refuse(*scopes_.back().missing);  // without it the other keys cannot be judged
     rest(*this);
   }
 
@@ -135,9 +139,9 @@ class Reader final : public DescriptionVisitor {
 
  protected:
   void visit_whole_number(const Key& key, const WholeRange& range, std::int64_t& value) override {
-    const std::string valid =
-        range.low == range.high ? fmt::format("must be {}", range.low)
-                                : fmt::format("must be a whole number in {}", interval(range, key.unit));
+    const std::string valid = range.low == range.high
+                                  ? fmt::format("must be {}", range.low)
+                                  : fmt::format("must be a whole number in {}", interval(range, key.unit));
     const YamlNode* node = take(key, valid);
     if (node == nullptr) return;
     if (node->kind != YamlNode::Kind::kScalar) refuse(*node, key, "", what_it_is(*node), valid, give(key));
@@ -168,8 +172,8 @@ class Reader final : public DescriptionVisitor {
     const YamlNode* node;
     std::string_view key;
     std::optional<std::size_t> index;
-    std::vector<std::string_view> known;   ///< keys that the description has shown
-    std::optional<MissionFault> missing;   ///< the first required key that is not there
+    std::vector<std::string_view> known;  ///< keys that the description has shown
+    std::optional<MissionFault> missing;  ///< the first required key that is not there
   };
 
   static std::string give(const Key& key) { return fmt::format("give {}", key.meaning); }
@@ -199,8 +203,8 @@ class Reader final : public DescriptionVisitor {
     return text;
   }
 
-  [[noreturn]] void refuse(const YamlNode& node, const Key& key, std::string_view rest_of_path, std::string_view problem,
-                           std::string valid, std::string advice) const {
+  [[noreturn]] void refuse(const YamlNode& node, const Key& key, std::string_view rest_of_path,
+                           std::string_view problem, std::string valid, std::string advice) const {
     source_.refuse({.place = source_.place_of(node),
                     .key = path(key.name).append(rest_of_path),
                     .value = as_written(node),
@@ -238,7 +242,8 @@ class Reader final : public DescriptionVisitor {
   void inside(const YamlNode& node, std::string_view key, std::optional<std::size_t> index, std::string_view valid,
               std::string advice, const Describe& describe) {
     scopes_.push_back({.node = &node, .key = key, .index = index, .known = {}, .missing = std::nullopt});
-    if (node.kind != YamlNode::Kind::kMap) refuse(node, {}, "", what_it_is(node), std::string(valid), std::move(advice));
+    if (node.kind != YamlNode::Kind::kMap)
+      refuse(node, {}, "", what_it_is(node), std::string(valid), std::move(advice));
     describe(*this);
     end_scope();
     scopes_.pop_back();
@@ -269,7 +274,8 @@ class Reader final : public DescriptionVisitor {
     const auto valid = [&] { return number_in_words(range, key.unit); };
     if (node.kind != YamlNode::Kind::kScalar) refuse(node, key, rest_of_path, what_it_is(node), valid(), give(key));
     const ParsedNumber number = parse_number(node);
-    if (!number.problem.empty()) refuse(node, key, rest_of_path, number.problem, valid(), advice_for(number.problem, key));
+    if (!number.problem.empty())
+      refuse(node, key, rest_of_path, number.problem, valid(), advice_for(number.problem, key));
     if (!is_within(number.value, range)) {
       refuse(node, key, rest_of_path, "", fmt::format("must be in {}", interval(range, key.unit)), give(key));
     }

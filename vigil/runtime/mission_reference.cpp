@@ -41,8 +41,10 @@ class ReferenceWriter final : public DescriptionVisitor {
   ReferenceWriter(std::string path, std::string_view meaning) : path_(std::move(path)), meaning_(meaning) {}
 
   [[nodiscard]] std::string take() const {
-    const std::string heading = path_.empty() ? "## Top level\n" : fmt::format("## `{}`\n\n{}\n", path_, sentence(meaning_));
-    return heading + "\n| key | value | default | meaning |\n| --- | --- | --- | --- |\n" + rows_ + after_ + "\n" + inner_;
+    const std::string heading =
+        path_.empty() ? "## Top level\n" : fmt::format("## `{}`\n\n{}\n", path_, sentence(meaning_));
+    return heading + "\n| key | value | default | meaning |\n| --- | --- | --- | --- |\n" + rows_ + after_ + "\n" +
+           inner_;
   }
 
   void number(const Key& key, const Range& range, double& value) override {
@@ -109,7 +111,8 @@ class ReferenceWriter final : public DescriptionVisitor {
       names += fmt::format("{}`{}`", names.empty() ? "" : ", ", choice.name);
       meanings += fmt::format("<br>`{}`: {}", choice.name, choice.meaning);
     }
-    rows_ += fmt::format("| `{}` | {} | {} | {} |\n", key.name, names, default_of(key, choices[chosen].name), cell(meanings));
+    rows_ += fmt::format("| `{}` | {} | {} | {} |\n", key.name, names, default_of(key, choices[chosen].name),
+                         cell(meanings));
   }
 
  private:

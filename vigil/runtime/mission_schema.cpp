@@ -1,7 +1,6 @@
 #include "vigil/runtime/mission_schema.hpp"
 
 #include <fmt/format.h>
-
 #include <nlohmann/json.hpp>
 
 #include "vigil/runtime/mission_description.hpp"
@@ -28,11 +27,14 @@ Json json_list(Json items, const Count& count) {
 
 Json json_text(TextRule rule) {
   switch (rule) {
-    case TextRule::kIdentifier: return {{"type", "string"}, {"pattern", "^[A-Za-z0-9_-]{1,32}$"}};
-    case TextRule::kName: return {{"type", "string"}, {"minLength", 1}, {"maxLength", 64}};
-    case TextRule::kProse: break;
+    case TextRule::kIdentifier:
+      return {{"type", "string"}, {"pattern", "^[A-Za-z0-9_-]{1,32}$"}};
+    case TextRule::kName:
+      return {{"type", "string"}, {"minLength", 1}, {"maxLength", 64}, {"pattern", "^[^\\x00-\\x1f\\x7f]+$"}};
+    case TextRule::kProse:
+      break;
   }
-  return {{"type", "string"}, {"maxLength", 2000}};
+  return {{"type", "string"}, {"maxLength", 2000}, {"pattern", "^[^\\x00-\\x08\\x0b-\\x1f\\x7f]*$"}};
 }
 
 std::string described(const Key& key) {
@@ -64,7 +66,9 @@ class SchemaWriter final : public DescriptionVisitor {
     if (!key.is_required) schema["default"] = value;
     add(key, std::move(schema));
   }
-  void number(const Key& key, const Range& range, std::optional<double>& /*value*/) override { add(key, json_number(range)); }
+  void number(const Key& key, const Range& range, std::optional<double>& /*value*/) override {
+    add(key, json_number(range));
+  }
 
   void text(const Key& key, TextRule rule, std::string& value) override {
     Json schema = json_text(rule);

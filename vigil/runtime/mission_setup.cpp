@@ -73,7 +73,8 @@ field::Area area_in_field(const Mission& mission, const AreaEntry& area) {
 
 field::Importance importance(const Mission& mission) {
   field::Importance result;
-  for (const ClusterEntry& entry : mission.targets.clusters) result.clusters.push_back(cluster_in_field(mission, entry));
+  for (const ClusterEntry& entry : mission.targets.clusters)
+    result.clusters.push_back(cluster_in_field(mission, entry));
   for (const AreaEntry& entry : mission.targets.areas) result.areas.push_back(area_in_field(mission, entry));
   for (const NoFlyEntry& entry : mission.no_fly) result.no_fly.push_back(polygon_in_field(mission, entry.outline_m));
   result.uniform_floor = mission.targets.uniform_floor;

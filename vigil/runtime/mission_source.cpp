@@ -1,9 +1,9 @@
 #include "vigil/runtime/mission_source.hpp"
 
-#include <fmt/format.h>
-
 #include <charconv>
 #include <utility>
+
+#include <fmt/format.h>
 
 #include "vigil/runtime/mission_text.hpp"
 
@@ -65,7 +65,8 @@ void mark_as_override(YamlNode& node, int number) {
   }
 }
 
-[[noreturn]] void refuse_override(const std::string& key, const std::string& value, std::string problem, std::string valid) {
+[[noreturn]] void refuse_override(const std::string& key, const std::string& value, std::string problem,
+                                  std::string valid) {
   throw MissionError({.place = "--set " + key,
                       .key = "",
                       .value = value,
@@ -193,10 +194,14 @@ void MissionSource::refuse(MissionFault fault) const {
 std::string as_written(const YamlNode& node) {
   switch (node.kind) {
     case YamlNode::Kind::kEmpty:
-    case YamlNode::Kind::kUnset: return "(nothing)";
-    case YamlNode::Kind::kScalar: return node.is_quoted ? fmt::format("\"{}\"", node.text) : node.text;
-    case YamlNode::Kind::kList: return as_written_list(node);
-    case YamlNode::Kind::kMap: break;
+    case YamlNode::Kind::kUnset:
+      return "(nothing)";
+    case YamlNode::Kind::kScalar:
+      return node.is_quoted ? fmt::format("\"{}\"", node.text) : node.text;
+    case YamlNode::Kind::kList:
+      return as_written_list(node);
+    case YamlNode::Kind::kMap:
+      break;
   }
   return "{...}";
 }

@@ -12,8 +12,8 @@
 namespace vigil::runtime {
 
 /// A change to a mission from the command line: `--set key=value`. The key is a path such as `safety.separation_m` or
-/// `drones[1].start_m` (list entries counted from 0), the value is YAML (`[1, 2]` for a point) or `none`, which takes an
-/// optional value or a list's entry away.
+/// `drones[1].start_m` (list entries counted from 0), the value is YAML (`[1, 2]` for a point) or `none`, which takes
+/// an optional value or a list's entry away.
 struct Override {
   std::string key;
   std::string value;

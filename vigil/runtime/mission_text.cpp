@@ -1,14 +1,13 @@
 #include "vigil/runtime/mission_text.hpp"
 
+#include <array>
+#include <cerrno>
 #include <fcntl.h>
 #include <sys/stat.h>
+#include <system_error>
 #include <unistd.h>
 
 #include <fmt/format.h>
-
-#include <array>
-#include <cerrno>
-#include <system_error>
 
 #include "vigil/runtime/mission_error.hpp"
 
@@ -46,12 +45,13 @@ class Descriptor {
 std::string reason(int error_number) { return std::generic_category().message(error_number); }
 
 void require_small_regular_file(const Descriptor& file, const std::filesystem::path& path) {
-  struct stat status {};
+  struct stat status{};
   if (::fstat(file.number(), &status) != 0) refuse_file(path, "cannot be read: " + reason(errno), "give another file");
   if (S_ISDIR(status.st_mode)) refuse_file(path, "is a directory", "give the path of a mission file in it");
   if (!S_ISREG(status.st_mode)) refuse_file(path, "is not a regular file", "copy the mission into a file first");
   if (status.st_size > static_cast<off_t>(kMostMissionBytes)) {
-    refuse_file(path, fmt::format("has {} bytes", status.st_size), "is this a mission file? use drone_grid for many drones");
+    refuse_file(path, fmt::format("has {} bytes", status.st_size),
+                "is this a mission file? use drone_grid for many drones");
   }
 }
 
@@ -99,7 +99,8 @@ struct Cursor {
                       .advice = std::move(advice)});
 }
 
-void require_character(std::string_view text, std::size_t i, std::size_t bytes, const Cursor& at, const std::string& name) {
+void require_character(std::string_view text, std::size_t i, std::size_t bytes, const Cursor& at,
+                       const std::string& name) {
   if (bytes == 0) refuse_character(name, at, "is not UTF-8 text", "save the mission as UTF-8");
   const char character = text[i];
   const bool is_blank = character == ' ' || character == '\t' || character == '\n' || character == '\r';

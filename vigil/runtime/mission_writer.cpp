@@ -1,10 +1,10 @@
 #include "vigil/runtime/mission_writer.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <array>
 #include <utility>
+
+#include <fmt/format.h>
 
 #include "vigil/runtime/mission_description.hpp"
 #include "vigil/runtime/yaml_scalar.hpp"
@@ -31,11 +31,20 @@ std::string text_in_yaml(std::string_view text) {
   std::string quoted = "\"";
   for (const char c : text) {
     switch (c) {
-      case '"': quoted += "\\\""; break;
-      case '\\': quoted += "\\\\"; break;
-      case '\n': quoted += "\\n"; break;
-      case '\t': quoted += "\\t"; break;
-      default: quoted += c;
+      case '"':
+        quoted += "\\\"";
+        break;
+      case '\\':
+        quoted += "\\\\";
+        break;
+      case '\n':
+        quoted += "\\n";
+        break;
+      case '\t':
+        quoted += "\\t";
+        break;
+      default:
+        quoted += c;
     }
   }
   return quoted + "\"";
@@ -63,9 +72,11 @@ class Writer final : public DescriptionVisitor {
 
   void section(const Key& key, const Describe& describe) override {
     line(key, "");
+    const std::size_t end_of_line = yaml_.size();
     indent_ += 2;
     describe(*this);
     indent_ -= 2;
+    if (yaml_.size() == end_of_line) yaml_.insert(end_of_line - 1, " {}");
   }
 
   void optional_section(const Key& key, const OptionalSection& part) override {

@@ -6,8 +6,9 @@
 
 namespace vigil::runtime {
 
-/// The effective mission as YAML: every value that is set, defaults too; optional values only where they are set. Reading
-/// it gives the same mission again, bit for bit. Where there is a `drone_grid`, it stands instead of its drones.
+/// The effective mission as YAML: every value that is set, defaults too; optional values only where they are set.
+/// Reading it gives the same mission again, bit for bit. Where there is a `drone_grid`, it stands instead of its
+/// drones.
 [[nodiscard]] std::string mission_yaml(const Mission& mission);
 
 }  // namespace vigil::runtime

@@ -1,9 +1,9 @@
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <array>
 #include <map>
 #include <optional>
+
+#include <fmt/format.h>
 
 #include "vigil/runtime/mission_checks.hpp"
 #include "vigil/runtime/mission_setup.hpp"
@@ -67,7 +67,8 @@ struct NoFly {
 
   /// The number of a polygon that contains p.
   [[nodiscard]] std::optional<std::size_t> around(const Vec2& p) const {
-    const auto found = std::ranges::find_if(polygons, [&](const field::Polygon& polygon) { return field::contains(polygon, p); });
+    const auto found =
+        std::ranges::find_if(polygons, [&](const field::Polygon& polygon) { return field::contains(polygon, p); });
     return found == polygons.end() ? std::nullopt : std::optional(static_cast<std::size_t>(found - polygons.begin()));
   }
 };
@@ -159,17 +160,18 @@ void check_target(const Mission& mission, const MissionSource& source, const NoF
                    .key = key,
                    .value = "",
                    .problem = "is outside the field",
-                   .valid = fmt::format("must be inside the field of {:.6g} m x {:.6g} m at field.origin_m", field.length_x,
-                                        field.length_y),
+                   .valid = fmt::format("must be inside the field of {:.6g} m x {:.6g} m at field.origin_m",
+                                        field.length_x, field.length_y),
                    .advice = "move the target, or take `outside_field: clamp` in targets"});
   }
   if (const std::optional<std::size_t> i = no_fly.around(field.clamp(point))) {
-    source.refuse({.place = "",
-                   .key = key,
-                   .value = "",
-                   .problem = fmt::format("is in the no-fly polygon {}, where nothing is looked at", mission.no_fly[*i].name),
-                   .valid = "must be outside every no-fly polygon",
-                   .advice = "move or remove the target"});
+    source.refuse(
+        {.place = "",
+         .key = key,
+         .value = "",
+         .problem = fmt::format("is in the no-fly polygon {}, where nothing is looked at", mission.no_fly[*i].name),
+         .valid = "must be outside every no-fly polygon",
+         .advice = "move or remove the target"});
   }
 }
 

@@ -43,13 +43,15 @@ void describe_drone(DescriptionVisitor& visitor, EventEntry& event) {
 }
 
 void describe_cluster(DescriptionVisitor& visitor, EventEntry& event) {
-  visitor.text({.name = "cluster", .meaning = "the name of a cluster; for set_weight also of an area", .is_required = true},
-               TextRule::kName, event.cluster);
+  visitor.text(
+      {.name = "cluster", .meaning = "the name of a cluster; for set_weight also of an area", .is_required = true},
+      TextRule::kName, event.cluster);
 }
 
 void describe_target(DescriptionVisitor& visitor, EventEntry& event) {
-  visitor.whole_number({.name = "target", .meaning = "the number of a point of the cluster, counted from 1", .is_required = true},
-                       {1, 100'000}, event.target);
+  visitor.whole_number(
+      {.name = "target", .meaning = "the number of a point of the cluster, counted from 1", .is_required = true},
+      {1, 100'000}, event.target);
 }
 
 void describe_point(DescriptionVisitor& visitor, EventEntry& event) {
@@ -72,13 +74,15 @@ void describe_particulars(DescriptionVisitor& visitor, EventEntry& event) {
       return;
     case EventKind::kOverride:
       describe_drone(visitor, event);
-      visitor.point({.name = "velocity_m_s", .meaning = "what the pilot flies, world frame", .unit = "m/s", .is_required = true},
-                    {-100.0, 100.0}, event.velocity_m_s);
+      visitor.point(
+          {.name = "velocity_m_s", .meaning = "what the pilot flies, world frame", .unit = "m/s", .is_required = true},
+          {-100.0, 100.0}, event.velocity_m_s);
       return;
     case EventKind::kLoseTracking:
       describe_drone(visitor, event);
-      visitor.number({.name = "for_s", .meaning = "the time for which it is not seen", .unit = "s", .is_required = true}, {0.0, 1e6, false},
-                     event.for_s);
+      visitor.number(
+          {.name = "for_s", .meaning = "the time for which it is not seen", .unit = "s", .is_required = true},
+          {0.0, 1e6, false}, event.for_s);
       return;
     case EventKind::kAddTarget:
       describe_cluster(visitor, event);
@@ -120,29 +124,39 @@ void describe(DescriptionVisitor& visitor, SimulationSection& simulation) {
 
 void describe(DescriptionVisitor& visitor, VehicleSection& vehicle) {
   visitor.choice({.name = "model", .meaning = "the equation of motion"}, kVehicleModel, vehicle.model);
-  visitor.number({.name = "lag_s", .meaning = "the time constant of `first_order_lag`", .unit = "s"}, {0.0, 10.0}, vehicle.lag_s);
+  visitor.number({.name = "lag_s", .meaning = "the time constant of `first_order_lag`", .unit = "s"}, {0.0, 10.0},
+                 vehicle.lag_s);
   visitor.number({.name = "acceleration_limit_m_s2",
                   .meaning = "the highest acceleration of `first_order_lag`",
                   .unit = "m/s^2",
                   .default_text = "none"},
                  {0.0, 1000.0, false}, vehicle.acceleration_limit_m_s2);
-  visitor.number({.name = "command_delay_s", .meaning = "the time from the controller's decision to the vehicle's reaction", .unit = "s"},
+  visitor.number({.name = "command_delay_s",
+                  .meaning = "the time from the controller's decision to the vehicle's reaction",
+                  .unit = "s"},
                  {0.0, 10.0}, vehicle.command_delay_s);
-  visitor.number({.name = "altitude_m", .meaning = "the height at which it flies", .unit = "m"}, {0.0, 1e4, false}, vehicle.altitude_m);
-  visitor.number({.name = "take_off_s", .meaning = "the time from the ground to there", .unit = "s"}, kDuration, vehicle.take_off_s);
-  visitor.number({.name = "landing_s", .meaning = "the time from there to the ground", .unit = "s"}, kDuration, vehicle.landing_s);
-  visitor.number({.name = "emergency_s", .meaning = "the time from there to the ground with the motors off", .unit = "s"}, kDuration,
-                 vehicle.emergency_s);
+  visitor.number({.name = "altitude_m", .meaning = "the height at which it flies", .unit = "m"}, {0.0, 1e4, false},
+                 vehicle.altitude_m);
+  visitor.number({.name = "take_off_s", .meaning = "the time from the ground to there", .unit = "s"}, kDuration,
+                 vehicle.take_off_s);
+  visitor.number({.name = "landing_s", .meaning = "the time from there to the ground", .unit = "s"}, kDuration,
+                 vehicle.landing_s);
+  visitor.number(
+      {.name = "emergency_s", .meaning = "the time from there to the ground with the motors off", .unit = "s"},
+      kDuration, vehicle.emergency_s);
 }
 
 void describe(DescriptionVisitor& visitor, TrackerSection& tracker) {
   visitor.number({.name = "noise_m", .meaning = "the standard deviation of a position, per axis", .unit = "m"}, kNoise,
                  tracker.noise_m);
-  visitor.number({.name = "velocity_noise_m_s", .meaning = "the standard deviation of a velocity, per axis", .unit = "m/s"},
-                 kNoise, tracker.velocity_noise_m_s);
+  visitor.number(
+      {.name = "velocity_noise_m_s", .meaning = "the standard deviation of a velocity, per axis", .unit = "m/s"},
+      kNoise, tracker.velocity_noise_m_s);
   visitor.number({.name = "delay_s", .meaning = "the age of a measurement when it arrives", .unit = "s"}, {0.0, 10.0},
                  tracker.delay_s);
-  visitor.number({.name = "dropouts_per_min", .meaning = "the number of times a drone is lost from sight, on average", .unit = "1/min"},
+  visitor.number({.name = "dropouts_per_min",
+                  .meaning = "the number of times a drone is lost from sight, on average",
+                  .unit = "1/min"},
                  {0.0, 6000.0}, tracker.dropouts_per_min);
   visitor.number({.name = "dropout_s", .meaning = "the mean length of one", .unit = "s"}, {0.0, 600.0, false},
                  tracker.dropout_s);

@@ -14,8 +14,8 @@ enum class ScalarType : std::uint8_t { kText, kNumber, kBoolean };
 [[nodiscard]] ScalarType scalar_type(const YamlNode& scalar);
 
 struct ParsedNumber {
-  double value = 0.0;         ///< finite; meaningful where problem is empty
-  std::string_view problem;   ///< "is not a number", ...; empty where it is one
+  double value = 0.0;        ///< finite; meaningful where problem is empty
+  std::string_view problem;  ///< "is not a number", ...; empty where it is one
 };
 
 /// A finite decimal number: sign, digits with a point, exponent; nothing before or after it.

@@ -1,15 +1,15 @@
 #include "vigil/runtime/yaml_tree.hpp"
 
+#include <algorithm>
+#include <optional>
+#include <sstream>
+#include <utility>
+
 #include <fmt/format.h>
 #include <yaml-cpp/eventhandler.h>
 #include <yaml-cpp/exceptions.h>
 #include <yaml-cpp/mark.h>
 #include <yaml-cpp/parser.h>
-
-#include <algorithm>
-#include <optional>
-#include <sstream>
-#include <utility>
 
 #include "vigil/runtime/mission_error.hpp"
 #include "vigil/runtime/mission_text.hpp"
@@ -38,7 +38,8 @@ YamlNode node_at(const YAML::Mark& mark, YamlNode::Kind kind) {
   return node;
 }
 
-/// Builds the tree from the parser's events. Never holds more than the limits allow: it throws at the event that exceeds.
+/// Builds the tree from the parser's events. Never holds more than the limits allow: it throws at the event that
+/// exceeds.
 class TreeBuilder final : public YAML::EventHandler {
  public:
   explicit TreeBuilder(const std::string& name) : name_(name) {}
@@ -60,7 +61,8 @@ class TreeBuilder final : public YAML::EventHandler {
   void OnAlias(const YAML::Mark& mark, YAML::anchor_t /*anchor*/) override { refuse_reference(mark); }
   void OnAnchor(const YAML::Mark& mark, const std::string& /*anchor_name*/) override { refuse_reference(mark); }
 
-  void OnScalar(const YAML::Mark& mark, const std::string& tag, YAML::anchor_t anchor, const std::string& value) override {
+  void OnScalar(const YAML::Mark& mark, const std::string& tag, YAML::anchor_t anchor,
+                const std::string& value) override {
     admit(mark, tag, anchor);
     if (value.size() > kMostYamlScalarBytes) {
       refuse_at(name_, mark, fmt::format("has a text of {} bytes", value.size()),

@@ -19,7 +19,7 @@ struct YamlNode {
     kUnset    ///< taken back by an override: as if it had never been written
   };
   Kind kind = Kind::kEmpty;
-  bool is_quoted = false;  ///< a scalar in quotes or a block: text, whatever it looks like
+  bool is_quoted = false;   ///< a scalar in quotes or a block: text, whatever it looks like
   int override_number = 0;  ///< 0: from the file; n: from the n-th override
   int line = 0;             ///< from 1
   int column = 0;           ///< from 1

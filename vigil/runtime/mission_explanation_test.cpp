@@ -1,0 +1,94 @@
+#include "vigil/runtime/mission_explanation.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include "vigil/runtime/malformed_missions.hpp"
+#include "vigil/runtime/mission_file.hpp"
+
+namespace vigil::runtime {
+namespace {
+
+Mission right() { return parse_mission(right_mission(), "right"); }
+
+bool any_note_says(const Mission& mission, std::string_view words) {
+  return std::ranges::any_of(notes_on(mission),
+                             [&](const std::string& note) { return note.find(words) != std::string::npos; });
+}
+
+TEST(MissionExplanation, Shares_of_attention_follow_points_and_weights_and_sum_to_one) {
+  Mission mission = right();
+  mission.targets.uniform_floor = 0.3;
+  // Two points of weight 1 against an area of weight 5 share what the floor leaves.
+  const nlohmann::ordered_json attention = explanation_json(mission).at("attention");
+  EXPECT_DOUBLE_EQ(attention.at(0).at("share").get<double>(), 0.7 * 2.0 / 7.0);
+  EXPECT_DOUBLE_EQ(attention.at(1).at("share").get<double>(), 0.7 * 5.0 / 7.0);
+  EXPECT_DOUBLE_EQ(attention.at(2).at("share").get<double>(), 0.3);
+}
+
+TEST(MissionExplanation, Derived_values_are_those_of_the_filter) {
+  const nlohmann::ordered_json safety = explanation_json(right()).at("safety");
+  EXPECT_NEAR(safety.at("barrier_radius_m").get<double>(), std::hypot(0.2, 2.0 * 0.1 * 0.3), 1e-15);
+  EXPECT_NEAR(safety.at("least_sensing_range_m").get<double>(), std::hypot(0.2, 0.06) + 2.0 * 0.3 * 0.02, 1e-15);
+  EXPECT_GE(safety.at("sensing_range_m").get<double>(), safety.at("least_sensing_range_m").get<double>());
+}
+
+TEST(MissionExplanation, Its_text_names_everything_that_the_mission_names) {
+  const std::string text = explain(right());
+  for (const std::string_view name :
+       {"small", "north", "corner", "mast", "a, b", "lag_aware", "land b", "add_target west"}) {
+    EXPECT_NE(text.find(name), std::string::npos) << name;
+  }
+}
+
+TEST(MissionNotes, A_mission_without_contradictions_needs_none) {
+  EXPECT_TRUE(notes_on(right()).empty()) << notes_on(right()).front();
+}
+
+TEST(MissionNotes, The_papers_barrier_is_no_match_for_a_lagging_vehicle) {
+  Mission mission = right();
+  mission.safety.barrier = safety::BarrierKind::kPaper;
+  EXPECT_TRUE(any_note_says(mission, "safe only for vehicles that follow their velocity at once"));
+}
+
+TEST(MissionNotes, A_lag_that_the_filter_does_not_know_is_noted) {
+  Mission mission = right();
+  mission.simulation.vehicle.lag_s = 0.2;
+  EXPECT_TRUE(any_note_says(mission, "safety.lag_s (0.1 s) is less than the vehicle's lag (0.2 s)"));
+}
+
+TEST(MissionNotes, Noise_without_a_margin_is_noted) {
+  Mission mission = right();
+  mission.simulation.tracker.noise_m = 0.01;
+  EXPECT_TRUE(any_note_says(mission, "safety.margin_m is 0"));
+  mission.safety.margin_m = 0.05;
+  EXPECT_TRUE(notes_on(mission).empty());
+}
+
+TEST(MissionNotes, Positions_older_than_the_timeout_are_noted) {
+  Mission mission = right();
+  mission.simulation.tracker.delay_s = 0.6;
+  EXPECT_TRUE(any_note_says(mission, "every drone will count as lost"));
+}
+
+TEST(MissionNotes, Nothing_to_look_at_and_nobody_in_the_air_are_noted) {
+  Mission mission = right();
+  mission.targets = {};
+  mission.simulation.start = StartState::kGrounded;
+  EXPECT_TRUE(any_note_says(mission, "nothing to look at"));
+  EXPECT_TRUE(any_note_says(mission, "no event lets them take off"));
+}
+
+TEST(MissionNotes, The_papers_choices_that_change_its_result_are_noted) {
+  Mission mission = right();
+  mission.control.accounting = ergodic::Accounting::kPaperEq14;
+  mission.safety.obstacles = Obstacles::kActiveOnly;
+  EXPECT_TRUE(any_note_says(mission, "paper_eq14"));
+  EXPECT_TRUE(any_note_says(mission, "avoided by nobody"));
+}
+
+}  // namespace
+}  // namespace vigil::runtime
