@@ -20,7 +20,7 @@ int check(const CheckOptions& options) {
 }
 
 int print_schema() {
-  std::fputs(runtime::mission_schema_json().c_str(), stdout);
+  std::fputs((runtime::mission_schema_json().dump(2) + "\n").c_str(), stdout);
   return kDone;
 }
 

@@ -1,0 +1,123 @@
+#include "vigil/runtime/flight_audit.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <limits>
+#include <random>
+
+namespace vigil::runtime {
+namespace {
+
+AuditLimits limits() {
+  AuditLimits limits;
+  limits.field = {3.0, 3.0};
+  limits.separation_m = 0.2;
+  limits.wall_distance_m = 0.17;
+  limits.speed_limit_m_s = 0.3;
+  return limits;
+}
+
+/// Drones in the air, active, flown by velocity.
+struct Scene {
+  explicit Scene(const std::vector<Vec2>& places) : truth(places.size()), snapshot(places.size()) {
+    for (std::size_t i = 0; i < places.size(); ++i) {
+      truth[i].position = places[i];
+      truth[i].height_m = 1.0;
+      truth[i].mode = swarm::VehicleMode::kFlying;
+      snapshot.drones[i].activity = swarm::Activity::kActive;
+      snapshot.drones[i].order.action = swarm::Action::kVelocity;
+    }
+  }
+  void land(std::size_t drone) {
+    truth[drone].height_m = 0.0;
+    truth[drone].mode = swarm::VehicleMode::kGrounded;
+    snapshot.drones[drone].activity = swarm::Activity::kGrounded;
+  }
+  std::vector<TruthSample> truth;
+  swarm::Snapshot snapshot;
+};
+
+AuditTotals judged(const Scene& scene, const AuditLimits& by = limits()) {
+  FlightAudit audit(by, scene.truth.size());
+  audit.judge(scene.truth, scene.snapshot);
+  return audit.totals();
+}
+
+TEST(FlightAudit, A_pair_closer_than_R_s_is_a_violation_and_one_at_R_s_is_not) {
+  EXPECT_EQ(judged(Scene({{1.0, 1.0}, {1.199, 1.0}})).separation_violations, 1U);
+  EXPECT_EQ(judged(Scene({{1.0, 1.0}, {1.2, 1.0}})).separation_violations, 0U);
+}
+
+TEST(FlightAudit, A_landed_drone_comes_too_close_to_nobody) {
+  Scene scene({{1.0, 1.0}, {1.05, 1.0}, {2.0, 2.0}});
+  scene.land(1);
+  const AuditTotals totals = judged(scene);
+  EXPECT_EQ(totals.separation_violations, 0U);
+  EXPECT_NEAR(totals.least.airborne_pair_m, std::sqrt(2.0), 1e-12);
+}
+
+TEST(FlightAudit, A_failed_drone_in_the_air_counts_among_the_airborne_but_not_among_the_active) {
+  Scene scene({{1.0, 1.0}, {1.05, 1.0}, {2.0, 1.0}});
+  scene.snapshot.drones[1].activity = swarm::Activity::kVehicleFailed;
+  const AuditTotals totals = judged(scene);
+  EXPECT_EQ(totals.separation_violations, 1U);
+  EXPECT_NEAR(totals.least.airborne_pair_m, 0.05, 1e-12);
+  EXPECT_NEAR(totals.least.active_pair_m, 1.0, 1e-12);
+}
+
+TEST(FlightAudit, The_border_counts_from_both_sides) {
+  EXPECT_EQ(judged(Scene({{0.16, 1.0}})).wall_violations, 1U);
+  const AuditTotals outside = judged(Scene({{3.5, 1.0}}));
+  EXPECT_EQ(outside.wall_violations, 1U);
+  EXPECT_NEAR(outside.least.wall_m, -0.5, 1e-12);
+  EXPECT_EQ(judged(Scene({{0.17, 0.17}})).wall_violations, 0U);
+}
+
+TEST(FlightAudit, A_no_fly_polygon_is_violated_within_its_buffer) {
+  AuditLimits by = limits();
+  by.no_fly = {{{{1.0, 1.0}, {2.0, 1.0}, {2.0, 2.0}, {1.0, 2.0}}}};
+  by.no_fly_buffer_m = 0.1;
+  EXPECT_EQ(judged(Scene({{0.95, 1.5}}), by).no_fly_violations, 1U);
+  EXPECT_EQ(judged(Scene({{0.85, 1.5}}), by).no_fly_violations, 0U);
+  EXPECT_NEAR(judged(Scene({{1.5, 1.4}}), by).least.no_fly_m, -0.4, 1e-12);
+}
+
+TEST(FlightAudit, Only_drones_that_the_controller_steers_can_break_its_speed_limit) {
+  Scene scene({{1.0, 1.0}, {2.0, 2.0}});
+  scene.truth[0].velocity = Vec2(0.4, 0.0);
+  scene.truth[1].velocity = Vec2(0.5, 0.0);
+  scene.snapshot.drones[1].order.action = swarm::Action::kNone;  // a pilot has it
+  const AuditTotals totals = judged(scene);
+  EXPECT_EQ(totals.speed_violations, 1U);
+  EXPECT_DOUBLE_EQ(totals.max_speed_m_s, 0.4);
+}
+
+TEST(FlightAudit, The_sweep_finds_what_looking_at_every_pair_finds) {
+  std::mt19937_64 random(11);
+  std::uniform_real_distribution<double> coordinate(0.0, 3.0);
+  for (int trial = 0; trial < 200; ++trial) {
+    std::vector<Vec2> places;
+    for (int i = 0; i < 30; ++i) places.emplace_back(coordinate(random), coordinate(random));
+    Scene scene(places);
+    for (std::size_t i = 0; i < 30; i += 3) scene.snapshot.drones[i].activity = swarm::Activity::kHeld;
+    double airborne = std::numeric_limits<double>::infinity();
+    double active = airborne;
+    std::uint64_t violations = 0;
+    for (std::size_t i = 0; i < 30; ++i) {
+      for (std::size_t j = i + 1; j < 30; ++j) {
+        const double distance = (places[i] - places[j]).norm();
+        airborne = std::min(airborne, distance);
+        if (i % 3 != 0 && j % 3 != 0) active = std::min(active, distance);
+        violations += distance < 0.2 ? 1U : 0U;
+      }
+    }
+    const AuditTotals totals = judged(scene);
+    ASSERT_EQ(totals.least.airborne_pair_m, airborne);
+    ASSERT_EQ(totals.least.active_pair_m, active);
+    ASSERT_EQ(totals.separation_violations, violations);
+  }
+}
+
+}  // namespace
+}  // namespace vigil::runtime
