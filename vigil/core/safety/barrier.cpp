@@ -1,0 +1,227 @@
+#include "vigil/core/safety/barrier.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+namespace vigil::safety {
+namespace {
+
+/// What the escape from h < 0 speeds up with: a drone that is R - d too close asks for 5/s (R - d).
+constexpr double kEscapeRate = 5.0;
+/// Closer to a barrier's boundary than this is on it. Rounding of one tick must not look like a violation.
+constexpr double kOnBoundary = 1e-9;
+/// Points closer than this have no direction from one to the other.
+constexpr double kCoincident = 1e-9;
+
+double lag_of(const BarrierParameters& parameters) {
+  return parameters.kind == BarrierKind::kLagAware ? parameters.lag_s : 0.0;
+}
+
+double gamma(const BarrierParameters& parameters, double gain, double h) {
+  return parameters.kind == BarrierKind::kPaper ? gain * h * h * h : gain * h;
+}
+
+/// With zero-order hold |z_ij(t + dt)|^2 >= |z_ij|^2 + 2 z_ij.(u_i - u_j) dt, so h stays >= 0 where the drones that
+/// give way use up no more than h within the tick.
+double gamma_d(const BarrierParameters& parameters, double gain, double h, double hold_s) {
+  return std::min(gamma(parameters, gain, h), h / hold_s);
+}
+
+/// How fast to leave a barrier that is broken by `depth` metres. Not faster than u_max / 2: at u_max the row would
+/// touch the disk of speeds in one point, and any second row would make the problem infeasible just when it matters
+/// most. Together with what an uncooperative body asks for not faster than u_max, for the same reason.
+double escape_speed(const BarrierParameters& parameters, double depth, double closing_speed) {
+  const double room = std::max(0.0, parameters.u_max_m_s - closing_speed);
+  return std::min({kEscapeRate * depth, 0.5 * parameters.u_max_m_s, room});
+}
+
+/// n.u >= -gamma_d(d^2 - R^2) / (2 d) + closing_speed: the barrier on squared distances.
+double squared_offset(const BarrierParameters& parameters, double gain, double distance, double radius, double hold_s,
+                      double closing_speed) {
+  if (distance < radius - kOnBoundary)
+    return closing_speed + escape_speed(parameters, radius - distance, closing_speed);
+  if (distance <= kCoincident) return closing_speed;  // only where the radius is 0
+  const double h = std::max(0.0, (distance - radius) * (distance + radius));
+  return closing_speed - gamma_d(parameters, gain, h, hold_s) / (2.0 * distance);
+}
+
+/// The barrier of something that stands still, at a signed distance.
+double fixed_offset(const BarrierParameters& parameters, double distance, double radius) {
+  if (parameters.kind == BarrierKind::kPaper)
+    return squared_offset(parameters, parameters.wall_gain, distance, radius, parameters.dt_s, 0.0);
+  if (distance < radius - kOnBoundary) return escape_speed(parameters, radius - distance, 0.0);
+  return -gamma_d(parameters, parameters.wall_gain, std::max(0.0, distance - radius), parameters.dt_s);
+}
+
+std::optional<HalfPlane> binding(const BarrierParameters& parameters, const HalfPlane& row) {
+  if (!(row.offset > -parameters.u_max_m_s)) return std::nullopt;
+  return row;
+}
+
+/// As set, but never so short that one tick could step over the boundary.
+bool beyond_wall_range(const BarrierParameters& parameters, double distance, double radius) {
+  if (!parameters.wall_range_m) return false;
+  return distance > std::max(*parameters.wall_range_m, radius + parameters.u_max_m_s * parameters.dt_s);
+}
+
+/// Along x, by index: then the first and the last of many drones in one point are always free to leave it. Directions
+/// that differ from pair to pair would surround every one of them, and none could move.
+Vec2 parting_direction(int own, int other) { return own < other ? Vec2(1.0, 0.0) : Vec2(-1.0, 0.0); }
+
+/// To the right of the edge: out of the polygon.
+Vec2 outward(const field::Segment& edge) {
+  const Vec2 along = edge.b - edge.a;
+  const double length = along.norm();
+  return length > 0.0 ? Vec2(along.y() / length, -along.x() / length) : Vec2(1.0, 0.0);
+}
+
+double reach_of_row(const BarrierParameters& parameters, const PairBarrier& barrier) {
+  const double closing = parameters.u_max_m_s + barrier.closing_speed_m_s;  // gamma_d(h) = 2 d closing there
+  const auto by_rate = [&](double rate) {
+    const double half = closing / rate;
+    return half + std::hypot(half, barrier.radius_m);
+  };
+  const double held = by_rate(1.0 / barrier.hold_s);
+  if (parameters.kind == BarrierKind::kLagAware) return std::max(held, by_rate(barrier.gain));
+  const auto slack = [&](double d) {
+    return gamma(parameters, barrier.gain, (d - barrier.radius_m) * (d + barrier.radius_m)) - 2.0 * d * closing;
+  };
+  double low = barrier.radius_m;
+  double high = std::max(1.0, 2.0 * barrier.radius_m);
+  while (slack(high) < 0.0 && high < std::numeric_limits<double>::max() / 4.0) high *= 2.0;
+  for (int i = 0; i < 64; ++i) {
+    const double middle = 0.5 * (low + high);
+    (slack(middle) < 0.0 ? low : high) = middle;
+  }
+  return std::max(held, high);
+}
+
+PairBarrier barrier_of_distance(const BarrierParameters& parameters, const Body& own, const Body& other,
+                                double distance_m, double gain) {
+  const double lag = lag_of(parameters);
+  const double u_max = parameters.u_max_m_s;
+  const double distance = distance_m + (parameters.kind == BarrierKind::kLagAware ? parameters.margin_m : 0.0);
+  const double speed = other.is_controlled ? 0.0 : std::max(0.0, other.uncooperative_speed_m_s);
+  const double drift = u_max * std::max(0.0, own.age_s) + std::max(u_max, speed) * std::max(0.0, other.age_s);
+  PairBarrier barrier;
+  barrier.gain = gain;
+  if (other.is_controlled) {
+    // Where |p_ij| is least, p_ij.v_ij = 0 and |z_ij|^2 = |p_ij|^2 + lag^2 |v_ij|^2, |v_ij| <= 2 u_max.
+    barrier.radius_m = std::hypot(distance, 2.0 * lag * u_max) + drift;
+    barrier.hold_s = 2.0 * parameters.dt_s;
+  } else {
+    // With z_j = p_j: |z_ij|^2 = |p_ij|^2 + 2 lag p_ij.v_j + lag^2 |v_i|^2 there, whatever the other's velocity does.
+    barrier.radius_m = std::sqrt(distance * distance + 2.0 * lag * speed * distance + std::pow(lag * u_max, 2)) + drift;
+    barrier.hold_s = parameters.dt_s;
+    barrier.closing_speed_m_s = speed;
+  }
+  return barrier;
+}
+
+PairBarrier barrier_of_two_drones(const BarrierParameters& parameters) {
+  return separation_barrier(parameters, Body{}, Body{});
+}
+
+}  // namespace
+
+double barrier_radius(const BarrierParameters& parameters) { return barrier_of_two_drones(parameters).radius_m; }
+
+double derived_sensing_range(const BarrierParameters& parameters) {
+  return pair_reach(parameters, barrier_of_two_drones(parameters));
+}
+
+double least_sensing_range(const BarrierParameters& parameters) {
+  return barrier_radius(parameters) + 2.0 * parameters.u_max_m_s * parameters.dt_s;
+}
+
+Vec2 barrier_point(const BarrierParameters& parameters, const Body& body) {
+  if (!body.is_controlled) return body.position;
+  return body.position + lag_of(parameters) * body.velocity;
+}
+
+PairBarrier separation_barrier(const BarrierParameters& parameters, const Body& own, const Body& other) {
+  return barrier_of_distance(parameters, own, other, parameters.separation_m, parameters.pair_gain);
+}
+
+PairBarrier contact_barrier(const BarrierParameters& parameters, const Body& own, const Body& other) {
+  return barrier_of_distance(parameters, own, other, parameters.contact_distance_m, std::numeric_limits<double>::max());
+}
+
+std::optional<HalfPlane> pair_row(const BarrierParameters& parameters, const PairBarrier& barrier, const Vec2& z_ij,
+                                  int own, int other, Priority priority) {
+  const double distance = z_ij.norm();
+  const Vec2 normal = distance > kCoincident ? Vec2(z_ij / distance) : parting_direction(own, other);
+  const double offset =
+      squared_offset(parameters, barrier.gain, distance, barrier.radius_m, barrier.hold_s, barrier.closing_speed_m_s);
+  return binding(parameters, {normal, offset, priority});
+}
+
+double pair_reach(const BarrierParameters& parameters, const PairBarrier& barrier) {
+  return reach_of_row(parameters, barrier);
+}
+
+double wall_distance(const field::Field& field, const Vec2& z, int wall) {
+  const std::array distances{z.x(), field.length_x - z.x(), z.y(), field.length_y - z.y()};
+  return distances[static_cast<std::size_t>(wall)];
+}
+
+std::optional<HalfPlane> wall_row(const BarrierParameters& parameters, const field::Field& field, const Vec2& z,
+                                  int wall) {
+  static const std::array<Vec2, 4> kInward{Vec2(1.0, 0.0), Vec2(-1.0, 0.0), Vec2(0.0, 1.0), Vec2(0.0, -1.0)};
+  const double distance = wall_distance(field, z, wall);
+  if (beyond_wall_range(parameters, distance, parameters.wall_distance_m)) return std::nullopt;
+  const double offset = fixed_offset(parameters, distance, parameters.wall_distance_m);
+  return binding(parameters, {kInward[static_cast<std::size_t>(wall)], offset, Priority::kWall});
+}
+
+double no_fly_radius(const BarrierParameters& parameters) {
+  return std::hypot(parameters.no_fly_buffer_m, lag_of(parameters) * parameters.u_max_m_s);
+}
+
+std::size_t outline_length(std::span<const field::Segment> edges) {
+  for (std::size_t i = 0; i < edges.size(); ++i) {
+    if (i > 0 && edges[i].a != edges[i - 1].b) break;
+    if (i > 0 && edges[i].b == edges.front().a) return i + 1;
+  }
+  return std::min<std::size_t>(1, edges.size());
+}
+
+bool encloses(std::span<const field::Segment> outline, const Vec2& z) {
+  if (outline.size() < 3) return false;
+  bool inside = false;
+  for (const field::Segment& edge : outline) {
+    if ((edge.a.y() > z.y()) == (edge.b.y() > z.y())) continue;
+    const double x = edge.a.x() + (z.y() - edge.a.y()) / (edge.b.y() - edge.a.y()) * (edge.b.x() - edge.a.x());
+    if (z.x() < x) inside = !inside;
+  }
+  return inside;
+}
+
+std::optional<HalfPlane> edge_row(const BarrierParameters& parameters, const field::Segment& edge, const Vec2& z) {
+  const Vec2 away = z - field::nearest_point(edge, z);
+  const double distance = away.norm();
+  const double radius = no_fly_radius(parameters);
+  if (beyond_wall_range(parameters, distance, radius)) return std::nullopt;
+  const Vec2 normal = distance > kCoincident ? Vec2(away / distance) : outward(edge);
+  return binding(parameters, {normal, fixed_offset(parameters, distance, radius), Priority::kWall});
+}
+
+WayOut way_out(const BarrierParameters& parameters, std::span<const field::Segment> outline, const Vec2& z) {
+  WayOut way;
+  way.distance_m = std::numeric_limits<double>::infinity();
+  for (std::size_t i = 0; i < outline.size(); ++i) {
+    const Vec2 there = field::nearest_point(outline[i], z) - z;
+    const double distance = there.norm();
+    if (!(distance < way.distance_m)) continue;
+    way.distance_m = distance;
+    way.edge = i;
+    way.row.normal = distance > kCoincident ? Vec2(there / distance) : outward(outline[i]);
+  }
+  way.row.offset = escape_speed(parameters, way.distance_m + no_fly_radius(parameters), 0.0);
+  way.row.priority = Priority::kWall;
+  return way;
+}
+
+}  // namespace vigil::safety

@@ -1,0 +1,79 @@
+#pragma once
+
+#include <optional>
+#include <span>
+
+#include "vigil/core/field/field.hpp"
+#include "vigil/core/field/polygon.hpp"
+#include "vigil/core/safety/body.hpp"
+#include "vigil/core/safety/planar_qp.hpp"
+
+namespace vigil::safety {
+
+/// The barriers of (10), (11) as rows for the solver. Every row has a unit normal n, so that its offset is a speed: the
+/// least speed along n that the barrier asks of the drone. Rows that no velocity of the disk |u| <= u_max can break are
+/// left out. Docs: docs/derivations/safety.md.
+
+/// The point of a body whose barriers are kept: its position p for kPaper; z = p + lag v for kLagAware and a controlled
+/// body, since z' = u exactly. Nobody's command moves an uncontrolled body: it is where it is, and its barrier radius
+/// makes up for the lag.
+[[nodiscard]] Vec2 barrier_point(const BarrierParameters& parameters, const Body& body);
+
+/// What keeps a drone away from one other body.
+struct PairBarrier {
+  double radius_m = 0.0;  ///< h = |z_ij|^2 - radius^2
+  double gain = 0.0;      ///< of gamma
+  double hold_s = 0.0;    ///< gamma_d(h) = min(gamma(h), h / hold): 2 dt where both give way, dt where one does
+  double closing_speed_m_s = 0.0;  ///< how fast the other may come closer by itself
+};
+
+/// The barrier of separation_m between a controlled drone and another body.
+[[nodiscard]] PairBarrier separation_barrier(const BarrierParameters& parameters, const Body& own, const Body& other);
+
+/// The barrier of contact_distance_m, with gamma_d(h) = h / hold, the loosest that sampling allows: it outranks
+/// separation and must not hold a drone a moment before it has to. It never asks for more than separation_barrier().
+[[nodiscard]] PairBarrier contact_barrier(const BarrierParameters& parameters, const Body& own, const Body& other);
+
+/// 2 z_ij . u_i >= -gamma_d(h) + 2 |z_ij| closing_speed, divided by 2 |z_ij|; for h < 0 the speed of escape.
+/// `own` and `other` are the bodies' indices: they choose the direction where both points coincide.
+[[nodiscard]] std::optional<HalfPlane> pair_row(const BarrierParameters& parameters, const PairBarrier& barrier,
+                                                const Vec2& z_ij, int own, int other, Priority priority);
+
+/// The distance of z beyond which pair_row() leaves the row out.
+[[nodiscard]] double pair_reach(const BarrierParameters& parameters, const PairBarrier& barrier);
+
+/// The distance from z to a wall of the field (0 left, 1 right, 2 bottom, 3 top): negative outside.
+[[nodiscard]] double wall_distance(const field::Field& field, const Vec2& z, int wall);
+
+/// (11): kPaper 2 d n.u >= -gamma_d(d^2 - R_wall^2); kLagAware n.u >= -gamma_d(d - R_wall). Behind the wall the row
+/// points back inside. None beyond wall_range_m.
+[[nodiscard]] std::optional<HalfPlane> wall_row(const BarrierParameters& parameters, const field::Field& field,
+                                                const Vec2& z, int wall);
+
+/// How many of the edges, from the first on, make one outline: each begins where the one before it ends, and the last
+/// ends where the first begins. Edges that do not close make outlines of one.
+[[nodiscard]] std::size_t outline_length(std::span<const field::Segment> edges);
+
+/// True where the outline of a polygon encloses z. False for fewer than three edges.
+[[nodiscard]] bool encloses(std::span<const field::Segment> outline, const Vec2& z);
+
+/// The row that keeps z away from one edge, from outside: like a wall at the edge's nearest point, with the radius
+/// no_fly_radius(). None beyond wall_range_m.
+[[nodiscard]] std::optional<HalfPlane> edge_row(const BarrierParameters& parameters, const field::Segment& edge,
+                                                const Vec2& z);
+
+/// The row that leads out of a polygon that encloses z, by its nearest edge. Precondition: at least one edge, in the
+/// order of field::edges() (the inside on the left).
+struct WayOut {
+  HalfPlane row;
+  std::size_t edge = 0;
+  double distance_m = 0.0;  ///< to the edge
+};
+[[nodiscard]] WayOut way_out(const BarrierParameters& parameters, std::span<const field::Segment> outline,
+                             const Vec2& z);
+
+/// The distance of z from a no-fly edge at which h = 0: no_fly_buffer_m for kPaper, and for kLagAware
+/// sqrt(no_fly_buffer_m^2 + (lag u_max)^2).
+[[nodiscard]] double no_fly_radius(const BarrierParameters& parameters);
+
+}  // namespace vigil::safety

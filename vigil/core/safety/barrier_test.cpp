@@ -1,0 +1,259 @@
+#include "vigil/core/safety/barrier.hpp"
+
+#include <random>
+
+#include <gtest/gtest.h>
+
+namespace vigil::safety {
+namespace {
+
+/// The numbers of the paper's experiment.
+BarrierParameters paper() {
+  BarrierParameters parameters;
+  parameters.kind = BarrierKind::kPaper;
+  parameters.separation_m = 0.2;
+  parameters.contact_distance_m = 0.1;
+  parameters.wall_distance_m = 0.17;
+  parameters.no_fly_buffer_m = 0.1;
+  parameters.u_max_m_s = 0.3;
+  parameters.dt_s = 0.02;
+  parameters.pair_gain = 10.0;
+  parameters.wall_gain = 10.0;
+  return parameters;
+}
+
+BarrierParameters lag_aware() {
+  BarrierParameters parameters = paper();
+  parameters.kind = BarrierKind::kLagAware;
+  parameters.pair_gain = 5.0;
+  parameters.wall_gain = 5.0;
+  parameters.lag_s = 0.3;
+  parameters.margin_m = 0.02;
+  return parameters;
+}
+
+Body at(double x, double y) {
+  Body body;
+  body.position = Vec2(x, y);
+  return body;
+}
+
+Body stranger(double speed) {
+  Body body;
+  body.is_controlled = false;
+  body.uncooperative_speed_m_s = speed;
+  return body;
+}
+
+PairBarrier of_drones(const BarrierParameters& parameters) { return separation_barrier(parameters, Body{}, Body{}); }
+
+std::optional<HalfPlane> row_at(const BarrierParameters& parameters, const PairBarrier& barrier, double distance) {
+  return pair_row(parameters, barrier, Vec2(distance, 0.0), 0, 1, Priority::kSeparation);
+}
+
+TEST(Barrier, The_papers_pair_row_is_equation_10) {
+  const BarrierParameters parameters = paper();
+  const double d = 0.3;
+  const double h = d * d - 0.04;
+  const auto row = row_at(parameters, of_drones(parameters), d);
+  ASSERT_TRUE(row);
+  EXPECT_EQ(row->normal, Vec2(1.0, 0.0));
+  EXPECT_NEAR(2.0 * d * row->offset, -10.0 * h * h * h, 1e-15);
+}
+
+TEST(Barrier, The_papers_wall_row_is_equation_11) {
+  const BarrierParameters parameters = paper();
+  const field::Field field{3.0, 3.0};
+  const double d = 0.3;
+  const double h = d * d - 0.17 * 0.17;
+  const auto row = wall_row(parameters, field, Vec2(1.5, 3.0 - d), 3);
+  ASSERT_TRUE(row);
+  EXPECT_EQ(row->normal, Vec2(0.0, -1.0));
+  EXPECT_NEAR(2.0 * d * row->offset, -10.0 * h * h * h, 1e-14);
+}
+
+TEST(Barrier, The_lag_aware_rows_are_linear_in_h_on_the_point_p_plus_lag_v) {
+  const BarrierParameters parameters = lag_aware();
+  EXPECT_NEAR(barrier_radius(parameters), std::hypot(0.22, 2.0 * 0.3 * 0.3), 1e-15);
+  Body body = at(1.0, 1.0);
+  body.velocity = Vec2(0.1, -0.2);
+  EXPECT_LT((barrier_point(parameters, body) - Vec2(1.03, 0.94)).norm(), 1e-15);
+  const double d = 0.35;
+  const double h = d * d - std::pow(barrier_radius(parameters), 2);
+  const auto row = row_at(parameters, of_drones(parameters), d);
+  ASSERT_TRUE(row);
+  EXPECT_NEAR(2.0 * d * row->offset, -5.0 * h, 1e-15);
+  const auto wall = wall_row(parameters, {3.0, 3.0}, Vec2(0.2, 1.5), 0);
+  ASSERT_TRUE(wall);
+  EXPECT_NEAR(wall->offset, -5.0 * (0.2 - 0.17), 1e-15);
+}
+
+TEST(Barrier, However_large_the_gain_a_tick_uses_up_no_more_than_h) {
+  for (const BarrierParameters& given : {paper(), lag_aware()}) {
+    BarrierParameters parameters = given;
+    parameters.pair_gain = 1e12;
+    parameters.wall_gain = 1e12;
+    const PairBarrier barrier = of_drones(parameters);
+    const double d = barrier.radius_m + 0.001;
+    const auto row = row_at(parameters, barrier, d);
+    ASSERT_TRUE(row);
+    const double h = d * d - barrier.radius_m * barrier.radius_m;
+    EXPECT_NEAR(2.0 * d * row->offset, -h / (2.0 * parameters.dt_s), 1e-12);
+    const auto wall = wall_row(parameters, {3.0, 3.0}, Vec2(0.171, 1.5), 0);
+    ASSERT_TRUE(wall);
+    EXPECT_GE(wall->offset * parameters.dt_s, -0.001 - 1e-15);
+  }
+}
+
+TEST(Barrier, The_papers_numbers_give_a_sensing_range_of_61_centimetres) {
+  EXPECT_NEAR(derived_sensing_range(paper()), 0.61, 0.005);
+  EXPECT_NEAR(least_sensing_range(paper()), 0.2 + 2.0 * 0.3 * 0.02, 1e-15);
+}
+
+TEST(Barrier, Just_inside_the_derived_range_a_pair_has_a_row_and_just_outside_none) {
+  for (const BarrierParameters& parameters : {paper(), lag_aware()}) {
+    for (const double speed : {-1.0, 0.0, 0.1, 0.3}) {  // -1: another controlled drone
+      const Body other = speed < 0.0 ? Body{} : stranger(speed);
+      const PairBarrier barrier = separation_barrier(parameters, Body{}, other);
+      const double reach = pair_reach(parameters, barrier);
+      EXPECT_TRUE(row_at(parameters, barrier, reach * (1.0 - 1e-9)));
+      EXPECT_FALSE(row_at(parameters, barrier, reach * (1.0 + 1e-9)));
+      EXPECT_NEAR(row_at(parameters, barrier, reach * (1.0 - 1e-9))->offset, -parameters.u_max_m_s, 1e-6);
+    }
+  }
+}
+
+TEST(Barrier, An_uncooperative_body_puts_its_whole_speed_on_this_side) {
+  BarrierParameters parameters = paper();
+  const PairBarrier calm = separation_barrier(parameters, Body{}, stranger(0.0));
+  const PairBarrier wayward = separation_barrier(parameters, Body{}, stranger(0.25));
+  for (const double d : {0.2, 0.21, 0.25, 0.3, 0.4})
+    EXPECT_NEAR(row_at(parameters, wayward, d)->offset - row_at(parameters, calm, d)->offset, 0.25, 1e-15);
+}
+
+TEST(Barrier, Old_states_are_kept_away_from_by_as_much_as_they_may_have_moved) {
+  for (const BarrierParameters& parameters : {paper(), lag_aware()}) {
+    Body own;
+    Body other;
+    own.age_s = 0.1;
+    other.age_s = 0.2;
+    EXPECT_NEAR(separation_barrier(parameters, own, other).radius_m, barrier_radius(parameters) + 0.3 * 0.3, 1e-15);
+  }
+}
+
+TEST(Barrier, Where_h_is_negative_the_row_asks_to_leave_at_a_linear_rate_of_at_most_half_the_speed) {
+  for (const BarrierParameters& parameters : {paper(), lag_aware()}) {
+    const PairBarrier barrier = of_drones(parameters);
+    EXPECT_NEAR(row_at(parameters, barrier, barrier.radius_m - 0.01)->offset, 0.05, 1e-12);
+    EXPECT_NEAR(row_at(parameters, barrier, 0.01)->offset, 0.15, 1e-15);
+    EXPECT_NEAR(wall_row(parameters, {3.0, 3.0}, Vec2(0.16, 1.0), 0)->offset, 0.05, 1e-12);
+  }
+}
+
+TEST(Barrier, Rows_are_continuous_where_h_changes_its_sign) {
+  for (const BarrierParameters& parameters : {paper(), lag_aware()}) {
+    const PairBarrier barrier = separation_barrier(parameters, Body{}, stranger(0.1));
+    const double inside = row_at(parameters, barrier, barrier.radius_m - 1e-8)->offset;
+    const double outside = row_at(parameters, barrier, barrier.radius_m + 1e-8)->offset;
+    EXPECT_NEAR(inside, 0.1, 1e-6);
+    EXPECT_NEAR(outside, 0.1, 1e-6);
+  }
+}
+
+TEST(Barrier, Coincident_drones_are_sent_opposite_ways) {
+  const BarrierParameters parameters = lag_aware();
+  const PairBarrier barrier = of_drones(parameters);
+  for (int j = 1; j < 20; ++j) {
+    const auto row = pair_row(parameters, barrier, Vec2::Zero(), 0, j, Priority::kSeparation);
+    const auto back = pair_row(parameters, barrier, Vec2::Zero(), j, 0, Priority::kSeparation);
+    ASSERT_TRUE(row && back);
+    EXPECT_EQ(row->normal, -back->normal);
+    EXPECT_NEAR(row->normal.norm(), 1.0, 1e-15);
+    EXPECT_GT(row->offset, 0.0);
+  }
+}
+
+TEST(Barrier, A_contact_row_asks_for_no_more_than_the_separation_row_of_the_same_pair) {
+  for (const BarrierParameters& parameters : {paper(), lag_aware()}) {
+    for (const double speed : {-1.0, 0.0, 0.2, 0.5}) {
+      const Body other = speed < 0.0 ? Body{} : stranger(speed);
+      const PairBarrier separation = separation_barrier(parameters, Body{}, other);
+      const PairBarrier contact = contact_barrier(parameters, Body{}, other);
+      for (double d = 0.0; d < 1.0; d += 0.001) {
+        const auto firm = row_at(parameters, separation, d);
+        const auto last = row_at(parameters, contact, d);
+        if (!last) continue;
+        ASSERT_TRUE(firm) << d;
+        EXPECT_LE(last->offset, firm->offset + 1e-15) << d;
+      }
+    }
+  }
+}
+
+TEST(Barrier, Outside_the_field_the_wall_points_back_inside) {
+  for (const BarrierParameters& parameters : {paper(), lag_aware()}) {
+    const auto row = wall_row(parameters, {3.0, 2.0}, Vec2(3.5, 1.0), 1);
+    ASSERT_TRUE(row);
+    EXPECT_EQ(row->normal, Vec2(-1.0, 0.0));
+    EXPECT_NEAR(row->offset, 0.15, 1e-15);
+  }
+}
+
+TEST(Barrier, Beyond_the_wall_range_there_is_no_row_unless_one_tick_could_reach_the_wall) {
+  BarrierParameters parameters = paper();
+  parameters.wall_range_m = 0.25;
+  EXPECT_TRUE(wall_row(parameters, {3.0, 3.0}, Vec2(0.24, 1.0), 0));
+  EXPECT_FALSE(wall_row(parameters, {3.0, 3.0}, Vec2(0.26, 1.0), 0));
+  parameters.wall_range_m = 0.0;
+  EXPECT_TRUE(wall_row(parameters, {3.0, 3.0}, Vec2(0.172, 1.0), 0));
+}
+
+field::Polygon arrow(double x, double y) {  // concave: a notch in its right side
+  return {{Vec2(x, y), Vec2(x + 1.0, y), Vec2(x + 0.5, y + 0.5), Vec2(x + 1.0, y + 1.0), Vec2(x, y + 1.0)}};
+}
+
+TEST(Barrier, Outlines_are_told_apart_and_know_what_they_enclose) {
+  std::vector<field::Segment> edges = field::edges(arrow(0.0, 0.0));
+  for (const field::Segment& edge : field::edges(arrow(2.0, 0.0))) edges.push_back(edge);
+  edges.push_back({Vec2(5.0, 0.0), Vec2(6.0, 0.0)});
+  const std::span<const field::Segment> all(edges);
+  ASSERT_EQ(outline_length(all), 5U);
+  ASSERT_EQ(outline_length(all.subspan(5)), 5U);
+  ASSERT_EQ(outline_length(all.subspan(10)), 1U);
+  EXPECT_EQ(outline_length(all.subspan(11)), 0U);
+  std::mt19937_64 random(2);
+  std::uniform_real_distribution<double> coordinate(-0.5, 3.5);
+  for (int i = 0; i < 2000; ++i) {
+    const Vec2 p(coordinate(random), coordinate(random));
+    EXPECT_EQ(encloses(all.first(5), p), field::contains(arrow(0.0, 0.0), p));
+    EXPECT_EQ(encloses(all.subspan(5, 5), p), field::contains(arrow(2.0, 0.0), p));
+    EXPECT_FALSE(encloses(all.subspan(10), p));
+  }
+}
+
+TEST(Barrier, The_way_out_of_a_polygon_leads_through_its_nearest_edge) {
+  const std::vector<field::Segment> outline = field::edges(arrow(0.0, 0.0));
+  std::mt19937_64 random(4);
+  std::uniform_real_distribution<double> coordinate(0.0, 1.0);
+  int inside = 0;
+  for (int i = 0; i < 500; ++i) {
+    const Vec2 p(coordinate(random), coordinate(random));
+    if (!encloses(outline, p)) continue;
+    ++inside;
+    const WayOut way = way_out(lag_aware(), outline, p);
+    EXPECT_NEAR(way.distance_m, -field::signed_distance(arrow(0.0, 0.0), p), 1e-12);
+    EXPECT_GT(way.row.offset, 0.0);
+    EXPECT_FALSE(encloses(outline, p + (way.distance_m + 1e-6) * way.row.normal));
+  }
+  EXPECT_GT(inside, 200);
+}
+
+TEST(Barrier, On_an_edge_the_row_points_out_of_the_polygon) {
+  const std::vector<field::Segment> outline = field::edges(arrow(0.0, 0.0));
+  const auto row = edge_row(paper(), outline[0], Vec2(0.3, 0.0));
+  ASSERT_TRUE(row);
+  EXPECT_LT((row->normal - Vec2(0.0, -1.0)).norm(), 1e-15);
+}
+
+}  // namespace
+}  // namespace vigil::safety
