@@ -4,7 +4,7 @@ add_library(vigil::compile ALIAS vigil_compile)
 
 target_compile_options(vigil_compile INTERFACE
   -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wsign-conversion -Wold-style-cast
-  -Wnon-virtual-dtor -Woverloaded-virtual -Wdouble-promotion -Wformat=2 -Werror
+  -Wnon-virtual-dtor -Woverloaded-virtual -Wformat=2 -Werror
   # The same bytes from every preset: no fused multiply-add behind the source's back.
   -ffp-contract=off
   # g++ 12 sees an overlap in "literal" + std::string that cannot be (GCC bug 105651, fixed in 13).
