@@ -29,7 +29,7 @@ struct MalformedMission {
 };
 
 /// For GoogleTest's messages.
-inline void PrintTo(const MalformedMission& mission, std::ostream* out) { *out << mission.name; }
+inline std::ostream& operator<<(std::ostream& out, const MalformedMission& mission) { return out << mission.name; }
 
 [[nodiscard]] std::vector<MalformedMission> malformed_missions();
 

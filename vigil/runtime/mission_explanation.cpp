@@ -150,7 +150,9 @@ std::string explain_safety(const Mission& mission) {
   text +=
       line("separation", fmt::format("R_s {}; bodies touch at {}", in_words(barrier.separation_m, "m"),
                                      given_or_default(mission.safety.contact_distance_m, barrier.contact_distance_m)));
-  text += line("walls", fmt::format("R_wall {}", in_words(barrier.wall_distance_m, "m")));
+  text +=
+      line("walls", fmt::format("R_wall {}; those farther than {} have no say", in_words(barrier.wall_distance_m, "m"),
+                                barrier.wall_range_m ? in_words(*barrier.wall_range_m, "m") : "matters (derived)"));
   text += line("sensing", fmt::format("{}; at least {} is needed",
                                       given_or_derived(barrier.sensing_range_m, safety::derived_sensing_range(barrier)),
                                       in_words(safety::least_sensing_range(barrier), "m")));
@@ -217,6 +219,7 @@ Json safety_json(const Mission& mission) {
           {"wall_gain", barrier.wall_gain},
           {"sensing_range_m", barrier.sensing_range_m.value_or(safety::derived_sensing_range(barrier))},
           {"least_sensing_range_m", safety::least_sensing_range(barrier)},
+          {"wall_range_m", barrier.wall_range_m ? Json(*barrier.wall_range_m) : Json(nullptr)},
           {"obstacles", name_of(mission.safety.obstacles)}};
 }
 
