@@ -151,8 +151,9 @@ std::string explain_safety(const Mission& mission) {
       line("separation", fmt::format("R_s {}; bodies touch at {}", in_words(barrier.separation_m, "m"),
                                      given_or_default(mission.safety.contact_distance_m, barrier.contact_distance_m)));
   text +=
-      line("walls", fmt::format("R_wall {}; those farther than {} have no say", in_words(barrier.wall_distance_m, "m"),
-                                barrier.wall_range_m ? in_words(*barrier.wall_range_m, "m") : "matters (derived)"));
+      line("walls", fmt::format("R_wall {}; no say beyond {}", in_words(barrier.wall_distance_m, "m"),
+                                barrier.wall_range_m ? fmt::format("{} (given)", in_words(*barrier.wall_range_m, "m"))
+                                                     : "the distance at which they could hold a drone (derived)"));
   text += line("sensing", fmt::format("{}; at least {} is needed",
                                       given_or_derived(barrier.sensing_range_m, safety::derived_sensing_range(barrier)),
                                       in_words(safety::least_sensing_range(barrier), "m")));

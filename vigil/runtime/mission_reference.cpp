@@ -14,6 +14,8 @@ is kept whatever coverage asks for, and the simulated world. `vigil check MISSIO
 `missions/` has examples. This page and `missions/mission.schema.json` (for editors) are written by the program from the
 description that also reads the files, so they say what it does.
 
+- Editors that know JSON Schema complete and check a file whose first line is
+  `# yaml-language-server: $schema=mission.schema.json`.
 - YAML 1.2, UTF-8, at most 1 MiB; one document; no anchors, aliases or tags; indented with spaces.
 - SI units; the unit is part of a key's name. Write numbers alone: `0.3`, not `0.3 m/s`.
 - Points are `[x, y]` in the *world* frame, the one in which operators and trackers speak. The field is a rectangle in it,
