@@ -7,6 +7,7 @@
 
 #include "vigil/adapters/recording/recording_error.hpp"
 #include "vigil/adapters/recording/vocabulary.hpp"
+#include "vigil/swarm/names.hpp"
 
 namespace vigil::recording {
 namespace {
@@ -114,7 +115,7 @@ void CsvRecorder::write_tick(const swarm::Snapshot& snapshot) {
     ticks_.empty_cell();
   }
   ticks_.cell(std::uint64_t{snapshot.active});
-  ticks_.cell(word(snapshot.idle));
+  ticks_.cell(swarm::name_of(snapshot.idle));
   cell(ticks_, fallback_);
   ticks_.cell(least_.airborne_pair_m);
   ticks_.cell(least_.active_pair_m);
@@ -127,14 +128,14 @@ void CsvRecorder::write_drone(double time_s, std::size_t drone, const swarm::Dro
                               const runtime::TruthSample* truth) {
   drones_.cell(time_s);
   drones_.cell(ids_[drone]);
-  drones_.cell(word(snapshot.mode));
-  drones_.cell(word(snapshot.activity));
+  drones_.cell(swarm::name_of(snapshot.mode));
+  drones_.cell(swarm::name_of(snapshot.activity));
   cells(drones_, frame_.point_to_world(snapshot.position));
   drones_.cell(snapshot.height_m);
   cells(drones_, frame_.vector_to_world(snapshot.velocity));
   drones_.cell(snapshot.age_s);
   cells(drones_, frame_.vector_to_world(snapshot.u_nom));
-  drones_.cell(word(snapshot.order.action));
+  drones_.cell(swarm::name_of(snapshot.order.action));
   cells(drones_, frame_.vector_to_world(snapshot.order.velocity));
   write_holding(snapshot.filter);
   cell(drones_, snapshot.filter.fallback);

@@ -14,6 +14,7 @@
 #include "vigil/adapters/recording/csv_rows.hpp"
 #include "vigil/adapters/recording/recording_error.hpp"
 #include "vigil/adapters/recording/vocabulary.hpp"
+#include "vigil/swarm/names.hpp"
 
 namespace vigil::recording {
 namespace {
@@ -25,8 +26,8 @@ constexpr double kInfinite = std::numeric_limits<double>::infinity();
 
 template <class Enum>
 Enum value_in(const CsvRows& rows, std::size_t column) {
-  const auto value = value_of<Enum>(rows.text(column));
-  if (!value) rows.refuse(column, fmt::format("one of {}", fmt::join(kWords<Enum>, ", ")));
+  const auto value = swarm::value_of<Enum>(rows.text(column));
+  if (!value) rows.refuse(column, fmt::format("one of {}", fmt::join(swarm::kWords<Enum>, ", ")));
   return *value;
 }
 

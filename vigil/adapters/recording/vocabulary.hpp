@@ -1,15 +1,7 @@
 #pragma once
 
 #include <array>
-#include <cstddef>
-#include <optional>
-#include <span>
 #include <string_view>
-#include <utility>
-
-#include "vigil/swarm/activity.hpp"
-#include "vigil/swarm/observation.hpp"
-#include "vigil/swarm/snapshot.hpp"
 
 /// The words and headers of a recording's files: what the writer writes and the reader accepts. docs/recording.md
 /// explains each column.
@@ -38,46 +30,5 @@ inline constexpr std::string_view kDronePrefix = "drone:";
 inline constexpr std::string_view kWallPrefix = "wall:";
 inline constexpr std::string_view kNoFlyPrefix = "no_fly:";
 inline constexpr std::array<std::string_view, 4> kWallWords{"left", "right", "bottom", "top"};
-
-/// The words of an enumeration, in its own order.
-template <class Enum>
-inline constexpr std::span<const std::string_view> kWords{};
-
-inline constexpr std::array<std::string_view, 8> kModeWords{"unknown", "grounded", "taking_off", "flying",
-                                                            "landing", "falling",  "manual",     "failed"};
-inline constexpr std::array<std::string_view, 14> kActivityWords{
-    "active",        "never_seen",     "grounded",      "taking_off", "landing",     "emergency_stop", "overridden",
-    "marked_failed", "vehicle_failed", "tracking_lost", "link_lost",  "battery_low", "held",           "recovering"};
-inline constexpr std::array<std::string_view, 5> kActionWords{"none", "take_off", "land", "velocity", "stop_motors"};
-inline constexpr std::array<std::string_view, 3> kIdleWords{"none", "no_targets", "no_active_drone"};
-
-template <>
-inline constexpr std::span<const std::string_view> kWords<swarm::VehicleMode> = kModeWords;
-template <>
-inline constexpr std::span<const std::string_view> kWords<swarm::Activity> = kActivityWords;
-template <>
-inline constexpr std::span<const std::string_view> kWords<swarm::Action> = kActionWords;
-template <>
-inline constexpr std::span<const std::string_view> kWords<swarm::Idle> = kIdleWords;
-
-/// The word of a value. Precondition: one of the enumeration's.
-template <class Enum>
-[[nodiscard]] constexpr std::string_view word(Enum value) {
-  return kWords<Enum>[static_cast<std::size_t>(value)];
-}
-
-/// The value of a word; empty for a word that is none.
-template <class Enum>
-[[nodiscard]] constexpr std::optional<Enum> value_of(std::string_view text) {
-  for (std::size_t i = 0; i < kWords<Enum>.size(); ++i) {
-    if (kWords<Enum>[i] == text) return static_cast<Enum>(i);
-  }
-  return std::nullopt;
-}
-
-static_assert(word(swarm::VehicleMode::kFailed) == kModeWords.back());
-static_assert(word(swarm::Activity::kRecovering) == kActivityWords.back());
-static_assert(word(swarm::Action::kStopMotors) == kActionWords.back());
-static_assert(word(swarm::Idle::kNoActiveDrone) == kIdleWords.back());
 
 }  // namespace vigil::recording

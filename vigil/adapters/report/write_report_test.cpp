@@ -1,0 +1,228 @@
+#include "vigil/adapters/report/write_report.hpp"
+
+#include <array>
+#include <regex>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "vigil/adapters/report/report_error.hpp"
+#include "vigil/adapters/report/report_folder_for_tests.hpp"
+#include "vigil/adapters/report/sample_flight.hpp"
+
+namespace vigil::report {
+namespace {
+
+constexpr std::array kFigures{"fig4_metric", "fig5_density", "fig6_inputs", "fig7_snapshots", "fig8_distances"};
+constexpr const char* kSummary =
+    R"({"complete": true, "metric": {"first": 0.08, "last": 0.001, "percent_last": 1.25, "percent_at": {"23": 4.5}},
+  "min_separation_m": {"airborne": 0.0625, "active": 0.375}, "min_wall_distance_m": null, "separation_violations": 17,
+  "worst_revisit_s": {"east": 12.5}, "tick_us": {"p50": 10, "p99": 21.0, "max": 50}})";
+
+std::size_t count_of(const std::string& text, const std::string& words) {
+  std::size_t count = 0;
+  for (std::size_t at = text.find(words); at != std::string::npos; at = text.find(words, at + 1)) ++count;
+  return count;
+}
+
+/// How many curves, clouds of points and pictures of data a figure has.
+std::size_t series_of(const std::filesystem::path& directory, const std::string& figure) {
+  return count_of(contents(directory / "figures" / (figure + ".svg")), "<g id=\"gnuplot_plot_");
+}
+
+struct Report {
+  TemporaryFolder folder;
+  SampleOptions options;
+  runtime::RecordedFlight flight;
+  runtime::Mission mission;
+  std::optional<std::string> summary = kSummary;
+
+  explicit Report(SampleOptions chosen = {})
+      : options(chosen), flight(sample_flight(chosen)), mission(sample_mission(chosen)) {}
+  std::string write(const ReportOptions& how = {}) {
+    write_report({flight, mission, summary}, folder.path(), how);
+    return contents(folder.path() / "report.html");
+  }
+};
+
+TEST(WriteReport, Every_figure_is_a_whole_SVG_and_a_whole_PNG) {
+  Report report;
+  report.write();
+  for (const char* name : kFigures) {
+    const std::string svg = contents(report.folder.path() / "figures" / (std::string(name) + ".svg"));
+    EXPECT_TRUE(svg.starts_with("<?xml")) << name;
+    EXPECT_NE(svg.find("</svg>", svg.size() - 20), std::string::npos) << name;
+    EXPECT_EQ(count_of(svg, "<g "), count_of(svg, "</g>")) << name;
+    const std::string png = contents(report.folder.path() / "figures" / (std::string(name) + ".png"));
+    EXPECT_TRUE(png.starts_with("\x89PNG\r\n")) << name;
+    EXPECT_EQ(png.substr(png.size() - 8, 4), "IEND") << name;
+  }
+}
+
+TEST(WriteReport, Nothing_but_the_report_is_left_behind) {
+  Report report;
+  report.write();
+  std::vector<std::string> names;
+  for (const auto& entry : std::filesystem::directory_iterator(report.folder.path()))
+    names.push_back(entry.path().filename());
+  std::sort(names.begin(), names.end());
+  EXPECT_EQ(names, (std::vector<std::string>{"figures", "report.html"}));
+}
+
+TEST(WriteReport, Each_drone_and_each_pair_has_its_curves) {
+  Report three;
+  Report four({.drones = 4});
+  three.write();
+  four.write();
+  EXPECT_EQ(series_of(three.folder.path(), "fig4_metric"), 2U);
+  EXPECT_EQ(series_of(three.folder.path(), "fig6_inputs"), 3U * 4U);
+  EXPECT_EQ(series_of(four.folder.path(), "fig6_inputs"), 4U * 4U);
+  EXPECT_EQ(series_of(three.folder.path(), "fig8_distances"), 3U * 3U);
+  EXPECT_EQ(series_of(four.folder.path(), "fig8_distances"), 6U * 3U);
+  // Its way and its name in the legend; in each of three snapshots its way, once its name.
+  EXPECT_EQ(series_of(four.folder.path(), "fig5_density"), series_of(three.folder.path(), "fig5_density") + 2U);
+  EXPECT_EQ(series_of(four.folder.path(), "fig7_snapshots"), series_of(three.folder.path(), "fig7_snapshots") + 4U);
+}
+
+TEST(WriteReport, A_crowd_is_shown_by_its_distribution) {
+  Report report({.drones = 80, .duration_s = 20.0});
+  report.write();
+  EXPECT_EQ(series_of(report.folder.path(), "fig6_inputs"), 4U);
+  EXPECT_EQ(series_of(report.folder.path(), "fig8_distances"), 4U);
+}
+
+TEST(WriteReport, The_page_refers_to_no_other_place) {
+  Report report;
+  const std::string page = report.write();
+  EXPECT_EQ(page.find("http:"), std::string::npos);
+  EXPECT_EQ(page.find("https:"), std::string::npos);
+  const std::regex reference("(?:src|href)=[\"']([^\"']{0,12})");
+  std::size_t references = 0;
+  for (std::sregex_iterator it(page.begin(), page.end(), reference), end; it != end; ++it, ++references) {
+    const std::string to = (*it)[1];
+    EXPECT_TRUE(to.starts_with("#") || to.starts_with("data:image/p") || to.starts_with("figures/fig")) << to;
+  }
+  EXPECT_GT(references, 10U);
+  EXPECT_EQ(page.find("<script"), std::string::npos);
+}
+
+TEST(WriteReport, The_figures_in_the_page_take_the_colour_of_its_text) {
+  Report report;
+  const std::string page = report.write();
+  EXPECT_NE(page.find("prefers-color-scheme: dark"), std::string::npos);
+  EXPECT_EQ(page.find("\"black\""), std::string::npos);
+  EXPECT_EQ(page.find("rgb(  0,   0,   0)"), std::string::npos);
+  EXPECT_EQ(count_of(page, "<svg role=\"img\""), 5U);
+}
+
+TEST(WriteReport, Identifiers_in_the_page_are_unique) {
+  Report report;
+  const std::string page = report.write();
+  for (const char* name : kFigures) EXPECT_EQ(count_of(page, " id='" + std::string(name) + "-gpDot'"), 1U) << name;
+  EXPECT_EQ(count_of(page, " id='gpDot'"), 0U);
+}
+
+TEST(WriteReport, The_same_flight_gives_the_same_page) {
+  Report a;
+  Report b;
+  EXPECT_EQ(a.write(), b.write());
+}
+
+TEST(WriteReport, A_broken_claim_is_called_broken) {
+  Report report;
+  const std::size_t before = count_of(report.write(), "does not hold");
+  report.flight.ticks.clearances[99].active_pair_m = 0.15;
+  const std::string page = report.write();
+  EXPECT_EQ(count_of(page, "does not hold"), before + 1);
+  EXPECT_NE(page.find("0.1500 m at 9.9 s"), std::string::npos);
+}
+
+TEST(WriteReport, The_summary_goes_before_the_recording_where_both_know) {
+  Report report;
+  const std::string page = report.write();
+  for (const char* words : {"1.25 %", "0.375 m", "0.0625 m", "<td>17</td>", "metric at 23 s", "12.5 s", "21 us"}) {
+    EXPECT_NE(page.find(words), std::string::npos) << words;
+  }
+}
+
+TEST(WriteReport, Without_a_summary_the_recording_is_enough_and_the_page_says_so) {
+  Report report;
+  report.summary.reset();
+  EXPECT_NE(report.write().find("There is no summary.json"), std::string::npos);
+  report.summary = "{\"metric\": [1, 2";
+  EXPECT_NE(report.write().find("summary.json cannot be read"), std::string::npos);
+  report.summary = "[7]";
+  EXPECT_NE(report.write().find("summary.json cannot be read"), std::string::npos);
+}
+
+TEST(WriteReport, A_partial_recording_and_a_flight_cut_short_are_told) {
+  Report report;
+  EXPECT_EQ(report.write().find("class=\"warning\""), std::string::npos);
+  report.flight.is_complete = false;
+  report.flight.incomplete_reason = "drones.csv ends in the middle of a line";
+  report.summary = "{\"complete\": false}";
+  const std::string page = report.write();
+  EXPECT_NE(page.find("This recording is partial: drones.csv ends in the middle of a line"), std::string::npos);
+  EXPECT_NE(page.find("The flight was stopped before its time"), std::string::npos);
+}
+
+TEST(WriteReport, Names_from_a_mission_file_cannot_become_markup_or_commands) {
+  Report report;
+  report.mission.name = "<script>alert(1)</script>";
+  report.mission.targets.clusters[0].name = "\"><img src=x>";
+  report.flight.targets[0].clusters[0].name = "\"><img src=x>";
+  report.mission.drones[0].id = "'`touch pwned`'<b>";
+  report.flight.drones[0] = "'`touch pwned`'<b>";
+  const std::string page = report.write();
+  EXPECT_EQ(page.find("<script"), std::string::npos);
+  EXPECT_EQ(page.find("<img"), std::string::npos);
+  EXPECT_EQ(page.find("<b>'"), std::string::npos);
+}
+
+TEST(WriteReport, The_printed_formula_of_the_paper_is_explained) {
+  Report report;
+  EXPECT_EQ(report.write().find("total mass of 2"), std::string::npos);
+  report.mission.control.accounting = ergodic::Accounting::kPaperEq14;
+  EXPECT_NE(report.write().find("total mass of 2"), std::string::npos);
+}
+
+TEST(WriteReport, Odd_flights_are_drawn_too) {
+  for (const SampleOptions& options :
+       {SampleOptions{.drones = 1, .duration_s = 5.0}, SampleOptions{.drones = 2, .duration_s = 0.0},
+        SampleOptions{.drones = 13, .duration_s = 2.0},
+        SampleOptions{.drones = 2, .duration_s = 1500.0, .rate_hz = 1.0}}) {
+    Report report(options);
+    EXPECT_FALSE(report.write().empty());
+  }
+}
+
+TEST(WriteReport, A_flight_in_which_nothing_was_covered_is_drawn_too) {
+  Report report;
+  report.mission.targets.clusters.clear();
+  report.flight.targets = {{0.0, {}, {}}};
+  for (swarm::Activity& activity : report.flight.rows.activity) activity = swarm::Activity::kGrounded;
+  for (double& percent : report.flight.ticks.metric_percent) percent = std::nan("");
+  for (Vec2& place : report.flight.rows.true_position_m) place = Vec2::Constant(std::nan(""));
+  for (Vec2& place : report.flight.rows.position_m) place = Vec2::Constant(std::nan(""));
+  for (runtime::Clearances& clearances : report.flight.ticks.clearances) clearances = {};
+  EXPECT_NE(report.write().find("there is no metric"), std::string::npos);
+}
+
+TEST(WriteReport, Without_gnuplot_nothing_is_written) {
+  Report report;
+  EXPECT_THROW(report.write({.gnuplot = "no-such-gnuplot"}), GnuplotMissing);
+  EXPECT_TRUE(std::filesystem::is_empty(report.folder.path()));
+}
+
+TEST(WriteReport, A_folder_that_is_not_there_is_named) {
+  const Report report;
+  try {
+    write_report({report.flight, report.mission, {}}, report.folder.path() / "absent");
+    FAIL();
+  } catch (const ReportError& error) {
+    EXPECT_NE(std::string(error.what()).find("absent: cannot write into it"), std::string::npos) << error.what();
+  }
+}
+
+}  // namespace
+}  // namespace vigil::report
