@@ -9,6 +9,7 @@
 #include "vigil/adapters/recording/recording_error.hpp"
 #include "vigil/apps/check_command.hpp"
 #include "vigil/apps/failure.hpp"
+#include "vigil/apps/report_command.hpp"
 #include "vigil/apps/simulate_command.hpp"
 #include "vigil/runtime/mission_error.hpp"
 
@@ -19,6 +20,7 @@ namespace {
 struct Arguments {
   SimulateOptions simulate;
   CheckOptions check;
+  ReportArguments report;
 };
 
 void add_settings(CLI::App* command, std::vector<std::string>& settings) {
@@ -47,6 +49,12 @@ CLI::App* add_check(CLI::App& program, CheckOptions& options) {
   return command;
 }
 
+CLI::App* add_report(CLI::App& program, ReportArguments& arguments) {
+  CLI::App* command = program.add_subcommand("report", "Draw the figures of a recording (SVG and PNG) and report.html");
+  command->add_option("DIR", arguments.directory, "The directory that simulate wrote")->required();
+  return command;
+}
+
 int run(int argc, char** argv) {
   CLI::App program("A drone swarm that persistently monitors what people point at.", "vigil");
   program.set_version_flag("--version", "vigil " VIGIL_VERSION);
@@ -56,6 +64,7 @@ int run(int argc, char** argv) {
   Arguments arguments;
   const CLI::App* simulate_command = add_simulate(program, arguments.simulate);
   const CLI::App* check_command = add_check(program, arguments.check);
+  const CLI::App* report_command = add_report(program, arguments.report);
   const CLI::App* schema_command = program.add_subcommand("schema", "Print the JSON Schema of mission files, for editors");
   try {
     program.parse(argc, argv);
@@ -65,6 +74,7 @@ int run(int argc, char** argv) {
   }
   if (simulate_command->parsed()) return simulate(arguments.simulate);
   if (check_command->parsed()) return check(arguments.check);
+  if (report_command->parsed()) return report(arguments.report);
   if (schema_command->parsed()) return print_schema();
   std::fputs(program.help().c_str(), stdout);
   return kBadInput;

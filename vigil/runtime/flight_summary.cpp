@@ -67,6 +67,10 @@ FlightSummary SummaryBuilder::finish(const AuditTotals& audit,
   summary.audit = audit;
   summary.worst_revisit_s = std::move(worst_revisit_s);
   summary.duration_s = static_cast<double>(summary.ticks) * dt_s_;
+  const bool asks_for_the_end = next_ask_ < ask_percent_at_s_.size() &&
+                                ask_percent_at_s_[next_ask_] <= summary.duration_s + 0.5 * dt_s_;
+  if (summary.first_metric && asks_for_the_end)  // the last tick's velocities lead there
+    summary.percent_at.emplace_back(ask_percent_at_s_[next_ask_], summary.last_percent);
   summary.complete = summary.duration_s >= asked_duration_s_ - 0.5 * dt_s_;
   summary.tick_us_p50 = quantile(tick_us_, 0.5);
   summary.tick_us_p99 = quantile(tick_us_, 0.99);

@@ -1,0 +1,41 @@
+#include "vigil/apps/report_command.hpp"
+
+#include <fmt/format.h>
+
+#include "vigil/adapters/recording/read_recording.hpp"
+#include "vigil/adapters/report/write_report.hpp"
+#include "vigil/apps/exit_code.hpp"
+#include "vigil/apps/failure.hpp"
+#include "vigil/apps/text_file.hpp"
+#include "vigil/runtime/mission_file.hpp"
+
+namespace vigil::apps {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Far more than any summary has.
+constexpr std::uintmax_t kMostSummaryBytes = std::uintmax_t{16} << 20U;
+
+std::optional<std::string> summary_of(const fs::path& directory) {
+  const fs::path path = directory / "summary.json";
+  if (!fs::is_regular_file(path)) return std::nullopt;
+  return read_whole(path, kMostSummaryBytes);
+}
+
+}  // namespace
+
+int report(const ReportArguments& arguments) {
+  const fs::path& directory = arguments.directory;
+  if (!fs::is_directory(directory / "recording"))
+    throw Failure(kBadInput, fmt::format("{}: no recording here; name a directory that `vigil simulate --out` wrote",
+                                         directory.string()));
+  const runtime::RecordedFlight flight = recording::read_recording(directory);
+  const runtime::Mission mission =
+      runtime::parse_mission(flight.mission_text, (directory / "recording" / "mission.yaml").string(), {});
+  report::write_report({flight, mission, summary_of(directory)}, directory);
+  fmt::print("{}\n", (directory / "report.html").string());
+  return kDone;
+}
+
+}  // namespace vigil::apps
