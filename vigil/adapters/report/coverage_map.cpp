@@ -14,7 +14,7 @@ using Eigen::Index;
 constexpr double kTargetRegion = 0.05;  // of the map's peak: what is below belongs to no target
 
 field::GridShape shape_for(const field::Field& field, double sigma_m) {
-  constexpr double kLeast = 180.0;
+  constexpr double kLeast = 144.0;
   constexpr double kMost = 256.0;
   const double longer = std::max(field.length_x, field.length_y);
   const double cells = std::clamp(2.0 * longer / sigma_m, kLeast, kMost);
@@ -161,6 +161,11 @@ CoverageMap coverage_map(const FlightData& data, const field::Importance& import
     map.shares = shares_of(map, components_of(data.field, importance, shape), time);
   }
   return map;
+}
+
+ArrayXXd wanted_on_grid(const FlightData& data, const CoverageMap& map, const field::Importance& importance) {
+  const auto grid = field::rasterise(data.field, importance, {map.flown.rows(), map.flown.cols()});
+  return grid ? grid->values : ArrayXXd();
 }
 
 ArrayXXd flown_between(const FlightData& data, const CoverageMap& map, std::size_t from, std::size_t to) {

@@ -39,6 +39,10 @@ struct CoverageMap {
 /// from the last "start afresh" on.
 [[nodiscard]] CoverageMap coverage_map(const FlightData& data, const field::Importance& importance);
 
+/// The importance map of another time on the same grid; empty where there are no targets.
+[[nodiscard]] Eigen::ArrayXXd wanted_on_grid(const FlightData& data, const CoverageMap& map,
+                                             const field::Importance& importance);
+
 /// The active drones' time from one kept tick up to another (not included), smoothed like CoverageMap::flown.
 [[nodiscard]] Eigen::ArrayXXd flown_between(const FlightData& data, const CoverageMap& map, std::size_t from,
                                             std::size_t to);

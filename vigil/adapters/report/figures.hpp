@@ -15,12 +15,13 @@ namespace vigil::report {
 [[nodiscard]] Figure density_figure(const FlightData& data, const CoverageMap& map);
 /// Fig. 6: what was asked of the drones: both components for up to six of them, the distribution of |u| for more.
 [[nodiscard]] Figure input_figure(const FlightData& data);
-/// Fig. 7: trajectories up to three times: a drone's loss (or 20 %), 33 % and 50 % of the flight.
-[[nodiscard]] Figure snapshot_figure(const FlightData& data, const CoverageMap& map);
+/// Fig. 7: trajectories up to snapshot_times(), each over the importance map of its time on the map's grid.
+[[nodiscard]] Figure snapshot_figure(const FlightData& data, const CoverageMap& map,
+                                     const std::vector<Eigen::ArrayXXd>& wanted);
 /// Fig. 8: every pair's distance for up to four drones, the distances to nearest neighbours for more, with R_s.
 [[nodiscard]] Figure distance_figure(const FlightData& data);
 
-/// The times that Fig. 7 shows, ascending.
+/// The times that Fig. 7 shows, ascending: a drone's loss (or 20 %), 33 % and 50 % of the flight.
 [[nodiscard]] std::vector<double> snapshot_times(const FlightData& data);
 /// Fig. 7 and Fig. 5 show only the last part of each drone's way where there are very many.
 [[nodiscard]] bool shows_whole_trajectories(const FlightData& data);

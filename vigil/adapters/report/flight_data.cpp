@@ -1,6 +1,7 @@
 #include "vigil/adapters/report/flight_data.hpp"
 
 #include <algorithm>
+#include <iterator>
 #include <utility>
 
 #include <fmt/format.h>
@@ -93,11 +94,14 @@ std::string FlightData::describe(const ActiveChange& change) const {
   return fmt::format("{} drones back", change.returned.size());
 }
 
-runtime::Mission mission_at_end(const RecordedFlight& flight, runtime::Mission mission) {
-  if (flight.targets.empty()) return mission;
+runtime::Mission mission_at(double time_s, const RecordedFlight& flight, runtime::Mission mission) {
+  const auto after = std::upper_bound(flight.targets.begin(), flight.targets.end(), time_s,
+                                      [](double time, const auto& list) { return time < list.time_s; });
+  if (after == flight.targets.begin()) return mission;
+  const runtime::RecordedTargets& list = *std::prev(after);
   const std::vector<runtime::AreaEntry> described = mission.targets.areas;
-  mission.targets.clusters = flight.targets.back().clusters;
-  mission.targets.areas = flight.targets.back().areas;
+  mission.targets.clusters = list.clusters;
+  mission.targets.areas = list.areas;
   for (runtime::AreaEntry& area : mission.targets.areas) {
     const auto same =
         std::find_if(described.begin(), described.end(), [&](const auto& a) { return a.name == area.name; });

@@ -33,7 +33,8 @@ struct FlightData {
   [[nodiscard]] std::size_t ticks() const { return flight.tick_count(); }
   [[nodiscard]] std::size_t drones() const { return flight.drones.size(); }
   [[nodiscard]] double time_s(std::size_t tick) const { return flight.ticks.time_s[tick]; }
-  [[nodiscard]] double end_s() const { return flight.ticks.time_s.back(); }
+  /// When the last kept tick's time is over.
+  [[nodiscard]] double end_s() const { return flight.ticks.time_s.back() + steps_s.back(); }
   /// The last kept tick that is not after time_s.
   [[nodiscard]] std::size_t tick_at(double time_s) const;
   /// The first change by which a drone was lost; none where none was.
@@ -42,8 +43,9 @@ struct FlightData {
   [[nodiscard]] std::string describe(const ActiveChange& change) const;
 };
 
-/// The mission with the targets that held at the end of the flight.
-[[nodiscard]] runtime::Mission mission_at_end(const runtime::RecordedFlight& flight, runtime::Mission mission);
+/// The mission with the targets that held at time_s.
+[[nodiscard]] runtime::Mission mission_at(double time_s, const runtime::RecordedFlight& flight,
+                                          runtime::Mission mission);
 
 /// ReportError where the flight has no tick or its drones are not the mission's.
 [[nodiscard]] FlightData prepare(const runtime::RecordedFlight& flight, const runtime::Mission& mission);

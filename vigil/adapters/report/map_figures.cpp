@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include <fmt/format.h>
 
@@ -15,6 +16,7 @@ constexpr unsigned kFlownColour = 0x1B5FC1;
 constexpr double kMostOpaque = 235.0;  // of 255
 constexpr double kOpacityGrowth = 0.75;
 constexpr const char* kTargetStyle = "with points pt 6 ps 0.7 lw 1.4 lc rgb '#B0122A'";
+constexpr const char* kOutlineStyle = "with lines lw 1.2 dt (6,5) lc rgb '#B0122A'";
 constexpr std::size_t kWholeTrajectories = 60;  // drones; with more only the ends of their ways are drawn
 
 /// Panels of the field side by side, all of one size, in pixels.
@@ -69,6 +71,18 @@ std::string target_points(const FlightData& data) {
 
 double opacity(double share) { return kMostOpaque * std::pow(share, kOpacityGrowth); }
 
+/// The outlines of drawn areas, closed, one after the other.
+std::string target_outlines(const FlightData& data) {
+  Curve outlines;
+  for (const runtime::AreaEntry& area : data.mission.targets.areas) {
+    const std::vector<Vec2> vertices = runtime::polygon_in_field(data.mission, area.outline_m).vertices;
+    if (!outlines.empty()) outlines.push_back(Vec2::Constant(std::numeric_limits<double>::quiet_NaN()));
+    outlines.insert(outlines.end(), vertices.begin(), vertices.end());
+    outlines.push_back(vertices.front());
+  }
+  return outlines.empty() ? "" : block("target_outlines", outlines);
+}
+
 std::string joined(const std::string& a, const std::string& b) { return a.empty() || b.empty() ? a + b : a + ", " + b; }
 
 /// A strip along the canvas' top that holds nothing but the legend; `entries` are plot elements of NaN with titles.
@@ -83,17 +97,30 @@ std::string legend(const Row& row, const std::string& entries) {
       place(0.02, 0.98, 0.9, 0.99), Row::kLeft / row.width_px(), entries);
 }
 
+/// Large fields have small densities: per hectare or square kilometre then.
+struct DensityUnit {
+  double per_m2 = 1.0;
+  const char* name = "1/m²";
+};
+
+DensityUnit density_unit(double peak) {
+  if (peak >= 1e-2) return {};
+  if (peak >= 1e-6) return {1e4, "1/ha"};
+  return {1e6, "1/km²"};
+}
+
 /// Colours of both maps with one scale of numbers between them.
 std::string colour_bar(const Row& row, double peak) {
+  const DensityUnit unit = density_unit(peak);
   const double from = row.left(row.panels - 1) + row.panel_width_px + 28.0;
   return fmt::format(
       "{}unset arrow\nunset label\nunset object\nset size noratio\nunset xtics\nunset xlabel\nunset ytics\nset y2tics "
       "out nomirror scale 0.5 format '%g'\n"
-      "set xrange [0:2]\nset yrange [0:{:.6g}]\nset y2range [0:{:.6g}]\nset y2label 'density [1/m²]' offset "
+      "set xrange [0:2]\nset yrange [0:{:.6g}]\nset y2range [0:{:.6g}]\nset y2label 'density [{}]' offset "
       "-0.6,0\nunset "
       "title\nset samples 2\n"
       "plot $scale using 1:2:($1<1?215:27):($1<1?38:95):($1<1?61:193):3 with rgbalpha notitle\n",
-      row.at_px(from, from + 26.0), peak, peak);
+      row.at_px(from, from + 26.0), unit.per_m2 * peak, unit.per_m2 * peak, unit.name);
 }
 
 std::string scale_block(double peak) {
@@ -141,7 +168,9 @@ Figure density_figure(const FlightData& data, const CoverageMap& map) {
   const double peak = peak_of(map);
   const Trajectories paths = trajectories(data, "path", first_shown_s(data, data.end_s()), data.end_s());
   const std::string targets = target_points(data);
-  figure.data = paths.data + targets + scale_block(peak) + density_block("flown", map.flown, map);
+  const std::string outlines = target_outlines(data);
+  figure.data = paths.data + targets + outlines + scale_block(density_unit(peak).per_m2 * peak) +
+                density_block("flown", map.flown, map);
   std::string wanted;
   if (map.has_targets()) {
     figure.data += density_block("wanted", map.wanted, map);
@@ -151,39 +180,41 @@ Figure density_figure(const FlightData& data, const CoverageMap& map) {
   figure.commands +=
       contour_commands("flown", peak) + "set multiplot\n" + panel_style() + row.at(0) + field_axes(data, true);
   figure.commands += title("importance map and trajectories") + paths.labels + "unset key\n";
-  figure.commands += fmt::format("plot {}{}{}\n", wanted.empty() ? "NaN" : wanted, paths.plot,
-                                 targets.empty() ? "" : fmt::format(", $target_points using 1:2 {}", kTargetStyle));
+  figure.commands += fmt::format("plot {}{}{}{}\n", wanted.empty() ? "NaN" : wanted, paths.plot,
+                                 targets.empty() ? "" : fmt::format(", $target_points using 1:2 {}", kTargetStyle),
+                                 outlines.empty() ? "" : fmt::format(", $target_outlines using 1:2 {}", kOutlineStyle));
   figure.commands += row.at(1) + field_axes(data, false) + title("where the swarm was");
   figure.commands += fmt::format("plot {}\n", density_plot("flown", kFlownColour, peak));
   figure.commands += colour_bar(row, peak);
-  const std::string target_entry = targets.empty() ? "" : fmt::format("NaN {} title 'target'", kTargetStyle);
-  figure.commands += legend(row, joined(paths.legend, target_entry)) + "unset multiplot\n";
+  const std::string point_entry = targets.empty() ? "" : fmt::format("NaN {} title 'target'", kTargetStyle);
+  const std::string area_entry = outlines.empty() ? "" : fmt::format("NaN {} title 'area'", kOutlineStyle);
+  figure.commands += legend(row, joined(joined(paths.legend, point_entry), area_entry)) + "unset multiplot\n";
   return figure;
 }
 
-Figure snapshot_figure(const FlightData& data, const CoverageMap& map) {
+Figure snapshot_figure(const FlightData& data, const CoverageMap& map, const std::vector<Eigen::ArrayXXd>& wanted) {
   const std::vector<double> times = snapshot_times(data);
   const Row row = row_of(data.field, static_cast<int>(times.size()), 16.0);
   Figure figure = sized("fig7_snapshots", row);
-  std::string wanted = "NaN";
-  if (map.has_targets()) {
-    const double peak = map.wanted.maxCoeff();
-    figure.data = density_block("backdrop", map.wanted, map);
-    figure.commands = contour_commands("backdrop", peak);
-    wanted = density_plot("backdrop", kWantedColour, 1.4 * peak);
-  }
-  figure.commands += "set multiplot\n" + panel_style() + "unset key\n";
   std::string entries;
+  std::string panels;
   for (std::size_t i = 0; i < times.size(); ++i) {
-    const Trajectories paths =
-        trajectories(data, fmt::format("snapshot{}_path", i + 1), first_shown_s(data, times[i]), times[i]);
-    entries = paths.legend;
+    const std::string name = fmt::format("snapshot{}", i + 1);
+    std::string backdrop = "NaN";
+    if (wanted[i].size() > 0) {
+      const double peak = wanted[i].maxCoeff();
+      figure.data += density_block(name, wanted[i], map);
+      figure.commands += contour_commands(name, peak);
+      backdrop = density_plot(name, kWantedColour, 1.4 * peak);
+    }
+    const Trajectories paths = trajectories(data, name + "_path", first_shown_s(data, times[i]), times[i]);
     figure.data += paths.data;
-    figure.commands += row.at(static_cast<int>(i)) + field_axes(data, i == 0) + paths.labels;
-    figure.commands += title(fmt::format("t = {:.4g} s", times[i]));
-    figure.commands += fmt::format("plot {}{}\n", wanted, paths.plot);
+    entries = paths.legend;
+    panels += row.at(static_cast<int>(i)) + field_axes(data, i == 0) + paths.labels;
+    panels += title(fmt::format("t = {:.4g} s", times[i])) + fmt::format("plot {}{}\n", backdrop, paths.plot);
   }
-  figure.commands += legend(row, entries) + "unset multiplot\n";
+  figure.commands +=
+      "set multiplot\n" + panel_style() + "unset key\n" + panels + legend(row, entries) + "unset multiplot\n";
   return figure;
 }
 

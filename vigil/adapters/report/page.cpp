@@ -39,7 +39,8 @@ std::string figure_section(const PageFigure& figure) {
   std::string items;
   for (const Finding& finding : figure.findings) items += finding_item(finding);
   return fmt::format(
-      "<section id=\"{0}\"><h2>{1}</h2><div class=\"figure\"><div>{2}<p class=\"note\">{3}</p><p class=\"links\"><a "
+      "<section id=\"{0}\"><h2>{1}</h2><div class=\"figure\"><div><div class=\"scroll\">{2}</div><p "
+      "class=\"note\">{3}</p><p class=\"links\"><a "
       "href=\"figures/{0}.svg\">SVG</a> &middot; <a href=\"figures/{0}.png\">PNG</a></p></div><div><p "
       "class=\"note\">What the paper says, "
       "and this recording</p><ul class=\"findings\">\n{4}</ul></div></div></section>\n",

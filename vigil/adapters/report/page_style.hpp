@@ -23,6 +23,7 @@ section { background: var(--card); border: 1px solid var(--line); border-radius:
 .tile span { color: var(--soft); font-size: 0.86rem; }
 .figure { display: grid; gap: 24px; grid-template-columns: minmax(0, 1.75fr) minmax(260px, 1fr); align-items: start; }
 .figure svg { display: block; width: 100%; height: auto; color: var(--text); }
+@media (prefers-color-scheme: dark) { .figure svg { filter: brightness(1.35); } }
 .note { color: var(--soft); font-size: 0.88rem; margin: 8px 0 0; }
 .links { font-size: 0.84rem; }
 a { color: var(--accent); }
@@ -42,7 +43,8 @@ th, td { text-align: left; padding: 6px 14px 6px 0; border-bottom: 1px solid var
 th { color: var(--soft); font-weight: 600; }
 code { font-size: 0.92em; background: var(--none-bg); border-radius: 5px; padding: 1px 5px; }
 footer { color: var(--soft); font-size: 0.85rem; margin-top: 22px; }
-@media (max-width: 820px) { .figure { grid-template-columns: 1fr; } main { padding: 18px 12px 40px; } section { padding: 14px; } }
+@media (max-width: 820px) { .figure { grid-template-columns: 1fr; } main { padding: 18px 12px 40px; }
+  section { padding: 14px; } .figure svg { min-width: 620px; } }
 @media print { body { background: #fff; } section { break-inside: avoid; } }
 )css";
 

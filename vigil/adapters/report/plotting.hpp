@@ -11,10 +11,10 @@
 namespace vigil::report {
 
 inline constexpr const char* kRed = "#D7263D";
-inline constexpr const char* kBlue = "#1B5FC1";
+inline constexpr const char* kBlue = "#2468CB";
 inline constexpr const char* kOrange = "#C8641B";
 inline constexpr const char* kGreen = "#12804A";
-inline constexpr const char* kViolet = "#7A4FBF";
+inline constexpr const char* kViolet = "#8459C9";
 inline constexpr const char* kGrey = "#8A8F98";
 
 inline constexpr std::size_t kFewDrones = 12;  ///< up to here each has its name in maps

@@ -10,7 +10,7 @@
 namespace vigil::report {
 namespace {
 
-using Json = nlohmann::json;
+using Json = nlohmann::ordered_json;  // times stay in their order
 using Rows = std::vector<std::vector<std::string>>;
 
 constexpr double kInfinite = std::numeric_limits<double>::infinity();

@@ -15,6 +15,7 @@ namespace {
 constexpr std::size_t kPieces = 500;  // of a curve over time: about one a pixel
 constexpr std::size_t kMostInputPanels = 6;
 constexpr std::size_t kMostPairDrones = 4;
+constexpr const char* kPale = "#80888C94";  // half transparent: pale on white and on black
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 
 std::vector<double> plotted_times(const FlightData& data) {
@@ -210,10 +211,10 @@ Figure pair_panels(const FlightData& data, Figure figure) {
       figure.commands +=
           fmt::format("plot ${} using 1:2 with lines lw 1.4 lc rgb '{}' title 'both active', ", name, kGreen);
       // The legend names the dimmed line once, in whatever panel it is.
-      figure.commands += other.empty()
-                             ? fmt::format("NaN with lines lw 1.4 lc rgb '{}' title 'not both active', ", "#B4B8BF")
-                             : fmt::format("${}_off using 1:2 with lines lw 1.4 lc rgb '{}' title 'not both active', ",
-                                           name, "#B4B8BF");
+      figure.commands +=
+          other.empty()
+              ? fmt::format("NaN with lines lw 1.4 lc rgb '{}' title 'not both active', ", kPale)
+              : fmt::format("${}_off using 1:2 with lines lw 1.4 lc rgb '{}' title 'not both active', ", name, kPale);
       figure.commands += fmt::format("{:.6g} with lines dt (10,6) lw 1.3 lc rgb '{}' title 'R_s'\n", bound, kRed);
     }
   }

@@ -2,6 +2,7 @@
 
 #include <fstream>
 #include <iterator>
+#include <limits>
 #include <unistd.h>
 #include <utility>
 #include <vector>
@@ -9,12 +10,11 @@
 #include <fmt/format.h>
 
 #include "vigil/adapters/report/coverage_map.hpp"
-#include "vigil/adapters/report/distances.hpp"
 #include "vigil/adapters/report/figures.hpp"
-#include "vigil/adapters/report/findings.hpp"
 #include "vigil/adapters/report/flight_data.hpp"
 #include "vigil/adapters/report/gnuplot.hpp"
 #include "vigil/adapters/report/page.hpp"
+#include "vigil/adapters/report/page_figures.hpp"
 #include "vigil/adapters/report/report_error.hpp"
 #include "vigil/adapters/report/summary_facts.hpp"
 #include "vigil/runtime/mission_setup.hpp"
@@ -23,6 +23,8 @@ namespace vigil::report {
 namespace {
 
 namespace fs = std::filesystem;
+
+constexpr double kAtTheEnd = std::numeric_limits<double>::infinity();
 
 /// A folder beside the report's own in which everything is made before it is moved into place.
 class Workshop {
@@ -67,52 +69,28 @@ void move_into_place(const fs::path& from, const fs::path& to) {
     throw ReportError(fmt::format("{}: cannot put it there: {}; check the folder", to.string(), error.message()));
 }
 
-const char* path_note(const FlightData& data) {
-  return shows_whole_trajectories(data) ? "Greens: each drone's way." : "Greens: the last part of each drone's way.";
-}
-
-std::vector<PageFigure> page_figures(const FlightData& data, const CoverageMap& map) {
-  return {{"fig4_metric",
-           "Fig. 4: the metric in percent of its first value",
-           "The same curve twice, so that its small end can be read.",
-           {},
-           metric_findings(data)},
-          {"fig5_density",
-           "Fig. 5: where the swarm should be, and where it was",
-           fmt::format("Left: the importance map at the end, with targets (circles). {} Right: the active drones' "
-                       "time, smoothed with "
-                       "sigma = {:.3g} m. One scale for both.",
-                       path_note(data), map.smoothing_m),
-           {},
-           density_findings(map)},
-          {"fig6_inputs",
-           "Fig. 6: control inputs",
-           "Grey: the drone is not active. Dashed: the velocity limit.",
-           {},
-           input_findings(data)},
-          {"fig7_snapshots",
-           "Fig. 7: trajectories up to three times",
-           fmt::format("{} Dots: active drones; crosses: drones that are not active.", path_note(data)),
-           {},
-           snapshot_findings(data, map)},
-          {"fig8_distances",
-           "Fig. 8: distances between the drones",
-           "Dashed: R_s. Pale: one of the two is not active.",
-           {},
-           distance_findings(data, closest_to_lost(data))}};
+std::vector<Eigen::ArrayXXd> maps_of_snapshots(const FlightData& data, const CoverageMap& map,
+                                               const ReportInput& input) {
+  std::vector<Eigen::ArrayXXd> maps;
+  for (const double time_s : snapshot_times(data)) {
+    const runtime::Mission then = mission_at(time_s, input.flight, input.mission);
+    maps.push_back(then.targets == data.mission.targets ? map.wanted
+                                                        : wanted_on_grid(data, map, runtime::importance(then)));
+  }
+  return maps;
 }
 
 }  // namespace
 
 void write_report(const ReportInput& input, const fs::path& directory, const ReportOptions& options) {
-  const runtime::Mission mission = mission_at_end(input.flight, input.mission);
+  const runtime::Mission mission = mission_at(kAtTheEnd, input.flight, input.mission);
   const FlightData data = prepare(input.flight, mission);
   const CoverageMap map = coverage_map(data, runtime::importance(mission));
   std::vector<PageFigure> figures = page_figures(data, map);
 
   const Workshop workshop(directory);
-  draw({metric_figure(data), density_figure(data, map), input_figure(data), snapshot_figure(data, map),
-        distance_figure(data)},
+  draw({metric_figure(data), density_figure(data, map), input_figure(data),
+        snapshot_figure(data, map, maps_of_snapshots(data, map, input)), distance_figure(data)},
        workshop.path(), options.gnuplot);
   for (PageFigure& figure : figures) figure.svg = contents(workshop.path() / (figure.file + ".svg"));
   write_text(workshop.path() / "report.html", page(data, map, summary_facts(data, input.summary_json), figures));
