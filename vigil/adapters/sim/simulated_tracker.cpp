@@ -10,7 +10,7 @@ std::size_t ticks_of(double delay_s, double dt_s) { return static_cast<std::size
 
 }  // namespace
 
-SimulatedTracker::SimulatedTracker(const TrackerParameters& parameters, double dt_s, RandomStream random)
+SimulatedTracker::SimulatedTracker(const TrackerParameters& parameters, double dt_s, dynamics::RandomStream random)
     : parameters_(parameters), dt_s_(dt_s), random_(random), on_the_way_(ticks_of(parameters.delay_s, dt_s) + 1) {}
 
 /// A Poisson process of beginnings, each with an exponential length.

@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "vigil/adapters/sim/random_stream.hpp"
+#include "vigil/core/dynamics/random_stream.hpp"
 #include "vigil/runtime/fleet.hpp"
 
 namespace vigil::sim {
@@ -19,7 +19,7 @@ struct TrackerParameters {
 /// The tracker's view of one vehicle: measures once a tick, delivers late, now and then nothing.
 class SimulatedTracker {
  public:
-  SimulatedTracker(const TrackerParameters& parameters, double dt_s, RandomStream random);
+  SimulatedTracker(const TrackerParameters& parameters, double dt_s, dynamics::RandomStream random);
 
   /// Takes one measurement of the truth; call once a tick, before observe().
   void measure(const runtime::TruthSample& truth) noexcept;
@@ -39,7 +39,7 @@ class SimulatedTracker {
 
   TrackerParameters parameters_;
   double dt_s_;
-  RandomStream random_;
+  dynamics::RandomStream random_;
   std::vector<Measurement> on_the_way_;  ///< ring: the delay in ticks, plus one
   std::size_t newest_ = 0;
   double hidden_s_ = 0.0;

@@ -1,9 +1,9 @@
-#include "vigil/adapters/sim/random_stream.hpp"
+#include "vigil/core/dynamics/random_stream.hpp"
 
 #include <cmath>
 #include <numbers>
 
-namespace vigil::sim {
+namespace vigil::dynamics {
 namespace {
 
 constexpr std::uint64_t kGoldenGamma = 0x9E3779B97F4A7C15U;
@@ -38,4 +38,4 @@ Vec2 RandomStream::normal(double standard_deviation) noexcept {
   return {radius * std::cos(angle), radius * std::sin(angle)};
 }
 
-}  // namespace vigil::sim
+}  // namespace vigil::dynamics

@@ -1,10 +1,10 @@
-#include "vigil/adapters/sim/random_stream.hpp"
+#include "vigil/core/dynamics/random_stream.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
-namespace vigil::sim {
+namespace vigil::dynamics {
 namespace {
 
 constexpr int kDraws = 200'000;
@@ -63,4 +63,4 @@ TEST(RandomStream, Exponential_numbers_have_their_mean) {
 }
 
 }  // namespace
-}  // namespace vigil::sim
+}  // namespace vigil::dynamics
