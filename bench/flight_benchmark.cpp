@@ -1,11 +1,10 @@
 // How long a whole mission takes: the paper's 120 s, flown and recorded as `vigil simulate` does it. One core.
 
-#include <benchmark/benchmark.h>
-
-#include <unistd.h>
-
 #include <filesystem>
 #include <string>
+#include <unistd.h>
+
+#include <benchmark/benchmark.h>
 
 #include "vigil/adapters/recording/csv_recorder.hpp"
 #include "vigil/apps/fleet_choice.hpp"

@@ -1,10 +1,10 @@
 // The controller's two kernels beside their slow literal twins: the ergodic sums and slopes, and the planar solver.
 
-#include <benchmark/benchmark.h>
-
 #include <cmath>
 #include <random>
 #include <vector>
+
+#include <benchmark/benchmark.h>
 
 #include "vigil/core/ergodic/kernel.hpp"
 #include "vigil/core/ergodic/literal_kernel.hpp"
@@ -55,7 +55,8 @@ void SlopesLiteral(benchmark::State& state) {
   }
 }
 
-#define VIGIL_SIZES ->ArgNames({"drones", "K"})->Args({3, 10})->Args({100, 10})->Args({1000, 20})->Unit(benchmark::kMicrosecond)
+#define VIGIL_SIZES \
+  ->ArgNames({"drones", "K"})->Args({3, 10})->Args({100, 10})->Args({1000, 20})->Unit(benchmark::kMicrosecond)
 BENCHMARK(SlopesFast) VIGIL_SIZES;
 BENCHMARK(SlopesLiteral) VIGIL_SIZES;
 #undef VIGIL_SIZES

@@ -12,8 +12,8 @@
 #include "vigil/runtime/mission_text.hpp"
 #include "vigil/runtime/mission_writer.hpp"
 
-/// Any bytes for a mission file. They are refused by a MissionError of one line, or make a mission that can be explained
-/// and that survives being written and read. Whatever follows a NUL byte is an override, as after --set.
+/// Any bytes for a mission file. They are refused by a MissionError of one line, or make a mission that can be
+/// explained and that survives being written and read. Whatever follows a NUL byte is an override, as after --set.
 namespace {
 
 using vigil::runtime::Mission;

@@ -1,5 +1,5 @@
-// Problems of every size for the planar solver: whatever finite numbers they are made of, the velocity is finite and within
-// the disk; where the numbers are of a size that drones meet, the answer is the slow solver's.
+// Problems of every size for the planar solver: whatever finite numbers they are made of, the velocity is finite and
+// within the disk; where the numbers are of a size that drones meet, the answer is the slow solver's.
 
 #include <cmath>
 #include <cstdint>
@@ -78,6 +78,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   require(solution.u.stableNorm() <= problem.radius * (1.0 + 1e-15), "the velocity is outside the disk", problem);
   for (const double violation : solution.violation) require(violation >= 0.0, "a violation is negative", problem);
   if (is_tame)
-    require(compare(problem, solution) != vigil::safety::Agreement::kDifferent, "not the slow solver's answer", problem);
+    require(compare(problem, solution) != vigil::safety::Agreement::kDifferent, "not the slow solver's answer",
+            problem);
   return 0;
 }

@@ -13,8 +13,7 @@ namespace vigil::apps {
 
 int check(const CheckOptions& options) {
   const runtime::Mission mission = choose_mission(options.mission, options.settings);
-  const std::string text =
-      options.json ? runtime::explanation_json(mission).dump(2) + "\n" : runtime::explain(mission);
+  const std::string text = options.json ? runtime::explanation_json(mission).dump(2) + "\n" : runtime::explain(mission);
   std::fputs(text.c_str(), stdout);
   return kDone;
 }

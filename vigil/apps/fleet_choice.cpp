@@ -29,12 +29,11 @@ sim::TrackerParameters tracker_parameters(const runtime::TrackerSection& tracker
 }  // namespace
 
 std::unique_ptr<runtime::VirtualFleet> simulated_fleet(const runtime::Mission& mission) {
-  const sim::FleetParameters parameters{
-      .vehicle = vehicle_parameters(mission.simulation.vehicle),
-      .tracker = tracker_parameters(mission.simulation.tracker),
-      .dt_s = 1.0 / mission.control.rate_hz,
-      .seed = mission.simulation.seed,
-      .starts_flying = mission.simulation.start == runtime::StartState::kFlying};
+  const sim::FleetParameters parameters{.vehicle = vehicle_parameters(mission.simulation.vehicle),
+                                        .tracker = tracker_parameters(mission.simulation.tracker),
+                                        .dt_s = 1.0 / mission.control.rate_hz,
+                                        .seed = mission.simulation.seed,
+                                        .starts_flying = mission.simulation.start == runtime::StartState::kFlying};
   return std::make_unique<sim::SimulatedFleet>(parameters, runtime::starts_in_field(mission));
 }
 

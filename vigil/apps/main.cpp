@@ -35,7 +35,8 @@ CLI::App* add_simulate(CLI::App& program, SimulateOptions& options) {
   command->add_option("--out", options.out, "Directory for recording/ and summary.json; must not exist")->required();
   command->add_option("--seconds", options.seconds, "How long to fly instead of what the mission says");
   command->add_option("--seed", options.seed, "The seed of everything random instead of the mission's");
-  command->add_option("--record-every", options.keep_every, "Keep every Nth tick in the recording")->check(CLI::Range(1, 1'000'000));
+  command->add_option("--record-every", options.keep_every, "Keep every Nth tick in the recording")
+      ->check(CLI::Range(1, 1'000'000));
   command->add_flag("--json", options.json, "Print summary.json instead of a text");
   add_settings(command, options.settings);
   return command;
@@ -59,18 +60,21 @@ int run(int argc, char** argv) {
   CLI::App program("A drone swarm that persistently monitors what people point at.", "vigil");
   program.set_version_flag("--version", "vigil " VIGIL_VERSION);
   program.require_subcommand(0, 1);
-  program.footer("Exit codes: 0 done, 1 the check failed, 2 bad arguments or mission file, 3 a component is missing or failed.\n"
-                 "Start with: vigil simulate missions/paper.yaml --out out/paper && vigil report out/paper");
+  program.footer(
+      "Exit codes: 0 done, 1 the check failed, 2 bad arguments or mission file, 3 a component is missing or failed.\n"
+      "Start with: vigil simulate missions/paper.yaml --out out/paper && vigil report out/paper");
   Arguments arguments;
   const CLI::App* simulate_command = add_simulate(program, arguments.simulate);
   const CLI::App* check_command = add_check(program, arguments.check);
   const CLI::App* report_command = add_report(program, arguments.report);
-  const CLI::App* schema_command = program.add_subcommand("schema", "Print the JSON Schema of mission files, for editors");
+  const CLI::App* schema_command =
+      program.add_subcommand("schema", "Print the JSON Schema of mission files, for editors");
   try {
     program.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
     if (error.get_exit_code() == 0) return program.exit(error);
-    throw Failure(kBadInput, fmt::format("{}; `vigil --help` and `vigil COMMAND --help` list what there is", error.what()));
+    throw Failure(kBadInput,
+                  fmt::format("{}; `vigil --help` and `vigil COMMAND --help` list what there is", error.what()));
   }
   if (simulate_command->parsed()) return simulate(arguments.simulate);
   if (check_command->parsed()) return check(arguments.check);

@@ -12,7 +12,9 @@ runtime::Mission choose_mission(const std::filesystem::path& path, const std::ve
   for (const std::string& setting : settings) {
     const std::size_t equals = setting.find('=');
     if (equals == std::string::npos || equals == 0)
-      throw Failure(kBadInput, fmt::format("--set {}: has no key and value; write it as key=value, e.g. control.fade=0.1", setting));
+      throw Failure(
+          kBadInput,
+          fmt::format("--set {}: has no key and value; write it as key=value, e.g. control.fade=0.1", setting));
     overrides.push_back({setting.substr(0, equals), setting.substr(equals + 1)});
   }
   return runtime::load_mission(path, overrides);

@@ -1,11 +1,10 @@
 // The paper's experiment (section IV) flown whole, judged by ground truth.
 
-#include <gtest/gtest.h>
-
 #include <algorithm>
 #include <random>
 #include <thread>
 
+#include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
 #include "vigil/apps/fleet_choice.hpp"

@@ -1,8 +1,7 @@
 #include "vigil/apps/progress_bar.hpp"
 
-#include <unistd.h>
-
 #include <algorithm>
+#include <unistd.h>
 
 #include <fmt/format.h>
 

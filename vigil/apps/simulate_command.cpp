@@ -26,10 +26,12 @@ namespace fs = std::filesystem;
 void create_results(const fs::path& out) {
   std::error_code error;
   if (fs::exists(fs::symlink_status(out, error)))
-    throw Failure(kBadInput, fmt::format("--out {}: is there already; name a directory that is not, or remove it", out.string()));
+    throw Failure(kBadInput,
+                  fmt::format("--out {}: is there already; name a directory that is not, or remove it", out.string()));
   fs::create_directories(out, error);
   if (error)
-    throw Failure(kBadInput, fmt::format("--out {}: cannot be created ({}); name a place where you may write", out.string(), error.message()));
+    throw Failure(kBadInput, fmt::format("--out {}: cannot be created ({}); name a place where you may write",
+                                         out.string(), error.message()));
 }
 
 std::vector<std::string> with_shorthands(const SimulateOptions& options) {
@@ -47,7 +49,8 @@ void fly(runtime::VirtualFlight& flight) {
     flight.step();
     const double share = static_cast<double>(flight.ticks_flown()) / static_cast<double>(flight.ticks_to_fly());
     if (flight.ticks_flown() % 50 == 0)
-      progress.show(share, fmt::format("{:.0f} s, metric {:.2f} %", flight.snapshot().time_s, flight.snapshot().metric_percent));
+      progress.show(
+          share, fmt::format("{:.0f} s, metric {:.2f} %", flight.snapshot().time_s, flight.snapshot().metric_percent));
   }
 }
 
@@ -58,11 +61,12 @@ void print_for_people(const runtime::FlightSummary& summary, const fs::path& out
   fmt::print("{}: {} drones, {:g} s{}\n", summary.mission, summary.drones, summary.duration_s,
              summary.complete ? "" : " (stopped before its time)");
   if (summary.first_metric) fmt::print("  ergodic metric     {:.2f} % of its first value\n", summary.last_percent);
-  fmt::print("  least separation   {} airborne, {} active\n", metres(audit.least.airborne_pair_m), metres(audit.least.active_pair_m));
+  fmt::print("  least separation   {} airborne, {} active\n", metres(audit.least.airborne_pair_m),
+             metres(audit.least.active_pair_m));
   fmt::print("  least wall         {}\n", metres(audit.least.wall_m));
   fmt::print("  fastest            {:.3f} m/s\n", audit.max_speed_m_s);
-  fmt::print("  violations         {} separation, {} wall, {} no-fly, {} speed (by ground truth)\n", audit.separation_violations,
-             audit.wall_violations, audit.no_fly_violations, audit.speed_violations);
+  fmt::print("  violations         {} separation, {} wall, {} no-fly, {} speed (by ground truth)\n",
+             audit.separation_violations, audit.wall_violations, audit.no_fly_violations, audit.speed_violations);
   fmt::print("  written to         {}\n  figures            vigil report {}\n", out.string(), out.string());
 }
 
@@ -83,10 +87,13 @@ int simulate(const SimulateOptions& options) {
   const runtime::FlightSummary summary = flight.summary();
   const std::string text = runtime::to_json(summary).dump(2) + "\n";
   write_whole(options.out / "summary.json", text);
-  if (options.json) std::fputs(text.c_str(), stdout);
-  else print_for_people(summary, options.out);
+  if (options.json)
+    std::fputs(text.c_str(), stdout);
+  else
+    print_for_people(summary, options.out);
   if (summary.complete) return kDone;
-  fmt::print(stderr, "vigil: stopped at {:g} s of {:g} s; what was flown is in {}\n", summary.duration_s, mission.simulation.duration_s, options.out.string());
+  fmt::print(stderr, "vigil: stopped at {:g} s of {:g} s; what was flown is in {}\n", summary.duration_s,
+             mission.simulation.duration_s, options.out.string());
   return kInterrupted;
 }
 

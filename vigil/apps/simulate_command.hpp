@@ -11,11 +11,11 @@ namespace vigil::apps {
 struct SimulateOptions {
   std::filesystem::path mission;
   std::filesystem::path out;
-  std::optional<double> seconds;        ///< instead of the mission's simulation.duration_s
-  std::optional<std::uint64_t> seed;    ///< instead of the mission's simulation.seed
-  std::vector<std::string> settings;    ///< key=value
-  std::uint64_t keep_every = 1;         ///< ticks, in the recording
-  bool json = false;                    ///< the summary to standard output
+  std::optional<double> seconds;      ///< instead of the mission's simulation.duration_s
+  std::optional<std::uint64_t> seed;  ///< instead of the mission's simulation.seed
+  std::vector<std::string> settings;  ///< key=value
+  std::uint64_t keep_every = 1;       ///< ticks, in the recording
+  bool json = false;                  ///< the summary to standard output
 };
 
 /// `vigil simulate`: flies the mission as fast as it can and leaves `recording/` and `summary.json` in options.out.

@@ -19,14 +19,16 @@ void write_whole(const std::filesystem::path& path, std::string_view text) {
   if (file && !error) return;
   std::error_code ignored;
   std::filesystem::remove(unfinished, ignored);
-  throw Failure(kComponentFailed, fmt::format("{}: cannot be written; make room or choose another place", path.string()));
+  throw Failure(kComponentFailed,
+                fmt::format("{}: cannot be written; make room or choose another place", path.string()));
 }
 
 std::string read_whole(const std::filesystem::path& path, std::uintmax_t most_bytes) {
   std::error_code error;
   const std::uintmax_t size = std::filesystem::file_size(path, error);
   if (!error && size > most_bytes)
-    throw Failure(kComponentFailed, fmt::format("{}: has {} bytes, more than the {} that it may have", path.string(), size, most_bytes));
+    throw Failure(kComponentFailed,
+                  fmt::format("{}: has {} bytes, more than the {} that it may have", path.string(), size, most_bytes));
   std::string text(error ? 0 : static_cast<std::size_t>(size), '\0');
   std::ifstream file(path, std::ios::binary);
   file.read(text.data(), static_cast<std::streamsize>(text.size()));

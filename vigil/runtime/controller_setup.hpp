@@ -9,10 +9,12 @@
 
 namespace vigil::runtime {
 
-/// The controller's parameters for a mission. `first_intent`: what every drone is to do before anyone commands anything.
+/// The controller's parameters for a mission. `first_intent`: what every drone is to do before anyone commands
+/// anything.
 [[nodiscard]] swarm::SwarmParameters swarm_parameters(const Mission& mission, swarm::Intent first_intent);
 
-/// Where the mission says to look, as coefficients of `basis`, with the no-fly edges. Some milliseconds; never in a tick.
+/// Where the mission says to look, as coefficients of `basis`, with the no-fly edges. Some milliseconds; never in a
+/// tick.
 [[nodiscard]] std::shared_ptr<const swarm::CoverageTarget> coverage_target(const Mission& mission,
                                                                            const ergodic::Basis& basis);
 

@@ -13,20 +13,20 @@ namespace vigil::runtime {
 /// Time since the mission began.
 using MissionTime = std::chrono::nanoseconds;
 
-/// The one port to vehicles. Field frame on this side; an adapter converts. Called from the control thread only, once each
-/// per tick, observe() first; neither may block, throw or wait for a vehicle.
+/// The one port to vehicles. Field frame on this side; an adapter converts. Called from the control thread only, once
+/// each per tick, observe() first; neither may block, throw or wait for a vehicle.
 class Fleet {
  public:
   virtual ~Fleet() = default;
 
   [[nodiscard]] virtual std::size_t size() const noexcept = 0;
 
-  /// Writes the newest that is known of every drone at `now`. What was never heard of keeps age kNever and mode kUnknown;
-  /// what is silent keeps its last values while its ages grow. Precondition: out.size() == size().
+  /// Writes the newest that is known of every drone at `now`. What was never heard of keeps age kNever and mode
+  /// kUnknown; what is silent keeps its last values while its ages grow. Precondition: out.size() == size().
   virtual void observe(MissionTime now, std::span<swarm::DroneObservation> out) noexcept = 0;
 
-  /// Passes the orders on, one per drone. An order stands until the next one; a vehicle that gets none for longer than its
-  /// own timeout stops by itself. Precondition: orders.size() == size().
+  /// Passes the orders on, one per drone. An order stands until the next one; a vehicle that gets none for longer than
+  /// its own timeout stops by itself. Precondition: orders.size() == size().
   virtual void order(MissionTime now, std::span<const swarm::DroneOrder> orders) noexcept = 0;
 };
 

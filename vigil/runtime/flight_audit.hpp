@@ -16,8 +16,8 @@ namespace vigil::runtime {
 struct AuditLimits {
   field::Field field;
   std::vector<field::Polygon> no_fly;
-  double separation_m = 0.0;      ///< R_s
-  double wall_distance_m = 0.0;   ///< R_wall
+  double separation_m = 0.0;     ///< R_s
+  double wall_distance_m = 0.0;  ///< R_wall
   double no_fly_buffer_m = 0.0;
   double speed_limit_m_s = 0.0;   ///< u_max
   double landed_height_m = 0.05;  ///< lower than this a drone is down
@@ -25,8 +25,8 @@ struct AuditLimits {
 
 /// What the whole flight came to.
 struct AuditTotals {
-  Clearances least;               ///< of all ticks
-  double max_speed_m_s = 0.0;     ///< horizontal, of drones that the controller steered
+  Clearances least;                         ///< of all ticks
+  double max_speed_m_s = 0.0;               ///< horizontal, of drones that the controller steered
   std::uint64_t separation_violations = 0;  ///< ticks x pairs of airborne drones closer than R_s
   std::uint64_t wall_violations = 0;        ///< ticks x airborne drones closer than R_wall to the border, or outside
   std::uint64_t no_fly_violations = 0;      ///< ticks x airborne drones within the buffer of a no-fly polygon

@@ -1,10 +1,10 @@
 #include "vigil/runtime/flight_audit.hpp"
 
-#include <gtest/gtest.h>
-
 #include <algorithm>
 #include <limits>
 #include <random>
+
+#include <gtest/gtest.h>
 
 namespace vigil::runtime {
 namespace {

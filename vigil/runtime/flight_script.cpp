@@ -5,8 +5,8 @@
 
 #include <fmt/format.h>
 
-#include "vigil/runtime/mission_setup.hpp"
 #include "vigil/runtime/mission_description.hpp"
+#include "vigil/runtime/mission_setup.hpp"
 
 namespace vigil::runtime {
 namespace {
@@ -17,15 +17,24 @@ using swarm::DroneId;
 /// The operator's command that an event stands for, where it stands for one.
 std::optional<CommandKind> command_of(EventKind kind) {
   switch (kind) {
-    case EventKind::kTakeOff: return CommandKind::kTakeOff;
-    case EventKind::kLand: return CommandKind::kLand;
-    case EventKind::kHold: return CommandKind::kHold;
-    case EventKind::kResume: return CommandKind::kResume;
-    case EventKind::kMarkFailed: return CommandKind::kMarkFailed;
-    case EventKind::kEmergencyStop: return CommandKind::kEmergencyStop;
-    case EventKind::kOverride: return CommandKind::kOverride;
-    case EventKind::kGiveBack: return CommandKind::kGiveBack;
-    default: return std::nullopt;
+    case EventKind::kTakeOff:
+      return CommandKind::kTakeOff;
+    case EventKind::kLand:
+      return CommandKind::kLand;
+    case EventKind::kHold:
+      return CommandKind::kHold;
+    case EventKind::kResume:
+      return CommandKind::kResume;
+    case EventKind::kMarkFailed:
+      return CommandKind::kMarkFailed;
+    case EventKind::kEmergencyStop:
+      return CommandKind::kEmergencyStop;
+    case EventKind::kOverride:
+      return CommandKind::kOverride;
+    case EventKind::kGiveBack:
+      return CommandKind::kGiveBack;
+    default:
+      return std::nullopt;
   }
 }
 
@@ -59,10 +68,17 @@ void apply_edit(TargetsSection& targets, const EventEntry& event) {
   ClusterEntry& cluster = cluster_named(targets, event.cluster);
   const std::ptrdiff_t index = event.target - 1;  // people count from 1
   switch (event.what) {
-    case EventKind::kAddTarget: cluster.points_m.push_back(event.point_m); break;
-    case EventKind::kMoveTarget: cluster.points_m.at(static_cast<std::size_t>(index)) = event.point_m; break;
-    case EventKind::kRemoveTarget: cluster.points_m.erase(cluster.points_m.begin() + index); break;
-    default: break;
+    case EventKind::kAddTarget:
+      cluster.points_m.push_back(event.point_m);
+      break;
+    case EventKind::kMoveTarget:
+      cluster.points_m.at(static_cast<std::size_t>(index)) = event.point_m;
+      break;
+    case EventKind::kRemoveTarget:
+      cluster.points_m.erase(cluster.points_m.begin() + index);
+      break;
+    default:
+      break;
   }
   if (cluster.points_m.empty()) targets.clusters.erase(find_named(targets.clusters, event.cluster));
 }
@@ -72,9 +88,12 @@ std::string describe_edit(const EventEntry& event) {
     case EventKind::kAddTarget:
       return fmt::format("{}: new target at ({}, {}) m", event.cluster, event.point_m.x(), event.point_m.y());
     case EventKind::kMoveTarget:
-      return fmt::format("{}: target {} to ({}, {}) m", event.cluster, event.target, event.point_m.x(), event.point_m.y());
-    case EventKind::kRemoveTarget: return fmt::format("{}: target {} removed", event.cluster, event.target);
-    default: return fmt::format("{}: weight {}", event.cluster, event.weight);
+      return fmt::format("{}: target {} to ({}, {}) m", event.cluster, event.target, event.point_m.x(),
+                         event.point_m.y());
+    case EventKind::kRemoveTarget:
+      return fmt::format("{}: target {} removed", event.cluster, event.target);
+    default:
+      return fmt::format("{}: weight {}", event.cluster, event.weight);
   }
 }
 
@@ -111,13 +130,23 @@ void FlightScript::play_for_drones(const EventEntry& event, DueEvents& due) {
   for (std::size_t index = 0; index < mission_.drones.size(); ++index) {
     if (event.drone != "all" && event.drone != mission_.drones[index].id) continue;
     const DroneId drone(index);
-    if (const auto command = command_of(event.what)) due.commands.push_back({.kind = *command, .drone = drone, .target = {}});
+    if (const auto command = command_of(event.what))
+      due.commands.push_back({.kind = *command, .drone = drone, .target = {}});
     switch (event.what) {
-      case EventKind::kFail: fleet_.fail(drone); break;
-      case EventKind::kOverride: fleet_.take_over(drone, velocity); break;
-      case EventKind::kGiveBack: fleet_.give_back(drone); break;
-      case EventKind::kLoseTracking: fleet_.hide(drone, event.for_s); break;
-      default: break;
+      case EventKind::kFail:
+        fleet_.fail(drone);
+        break;
+      case EventKind::kOverride:
+        fleet_.take_over(drone, velocity);
+        break;
+      case EventKind::kGiveBack:
+        fleet_.give_back(drone);
+        break;
+      case EventKind::kLoseTracking:
+        fleet_.hide(drone, event.for_s);
+        break;
+      default:
+        break;
     }
   }
 }

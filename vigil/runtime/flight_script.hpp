@@ -23,8 +23,8 @@ class FlightScript {
   /// Precondition: a mission that mission checks accepted; it and `fleet` outlive this.
   FlightScript(Mission& mission, VirtualFleet& fleet);
 
-  /// Lets everything happen that is due at time_s: to the vehicles and to the mission's targets at once, to the controller
-  /// by the commands that it returns.
+  /// Lets everything happen that is due at time_s: to the vehicles and to the mission's targets at once, to the
+  /// controller by the commands that it returns.
   [[nodiscard]] DueEvents play(double time_s);
 
  private:
@@ -36,6 +36,5 @@ class FlightScript {
   VirtualFleet& fleet_;
   std::size_t next_ = 0;
 };
-
 
 }  // namespace vigil::runtime

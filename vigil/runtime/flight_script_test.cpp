@@ -96,9 +96,9 @@ TEST_F(FlightScriptTest, A_pilot_takes_the_vehicle_and_the_controller_is_told) {
 }
 
 TEST_F(FlightScriptTest, Targets_are_added_moved_and_removed) {
-  const DueEvents due = play({edit(1.0, EventKind::kAddTarget, "new", 0, {2.0, 2.0}),
-                              edit(2.0, EventKind::kMoveTarget, "a", 2, {0.5, 0.5}),
-                              edit(3.0, EventKind::kRemoveTarget, "a", 1)});
+  const DueEvents due =
+      play({edit(1.0, EventKind::kAddTarget, "new", 0, {2.0, 2.0}),
+            edit(2.0, EventKind::kMoveTarget, "a", 2, {0.5, 0.5}), edit(3.0, EventKind::kRemoveTarget, "a", 1)});
   EXPECT_TRUE(due.targets_changed);
   ASSERT_EQ(mission.targets.clusters.size(), 2U);
   EXPECT_EQ(mission.targets.clusters[0].points_m, std::vector<Vec2>{Vec2(0.5, 0.5)});

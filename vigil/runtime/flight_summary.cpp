@@ -57,7 +57,8 @@ void SummaryBuilder::add(const swarm::Snapshot& snapshot, double tick_us) {
   if (!summary_.first_metric) summary_.first_metric = snapshot.metric;
   summary_.last_metric = snapshot.metric;
   summary_.last_percent = snapshot.metric_percent;
-  for (; next_ask_ < ask_percent_at_s_.size() && ask_percent_at_s_[next_ask_] <= snapshot.time_s + 0.5 * dt_s_; ++next_ask_)
+  for (; next_ask_ < ask_percent_at_s_.size() && ask_percent_at_s_[next_ask_] <= snapshot.time_s + 0.5 * dt_s_;
+       ++next_ask_)
     summary_.percent_at.emplace_back(ask_percent_at_s_[next_ask_], snapshot.metric_percent);
 }
 
@@ -67,8 +68,8 @@ FlightSummary SummaryBuilder::finish(const AuditTotals& audit,
   summary.audit = audit;
   summary.worst_revisit_s = std::move(worst_revisit_s);
   summary.duration_s = static_cast<double>(summary.ticks) * dt_s_;
-  const bool asks_for_the_end = next_ask_ < ask_percent_at_s_.size() &&
-                                ask_percent_at_s_[next_ask_] <= summary.duration_s + 0.5 * dt_s_;
+  const bool asks_for_the_end =
+      next_ask_ < ask_percent_at_s_.size() && ask_percent_at_s_[next_ask_] <= summary.duration_s + 0.5 * dt_s_;
   if (summary.first_metric && asks_for_the_end)  // the last tick's velocities lead there
     summary.percent_at.emplace_back(ask_percent_at_s_[next_ask_], summary.last_percent);
   summary.complete = summary.duration_s >= asked_duration_s_ - 0.5 * dt_s_;

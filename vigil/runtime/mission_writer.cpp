@@ -26,30 +26,6 @@ bool is_plain_word(std::string_view text) {
          std::ranges::find(kSpecial, text) == kSpecial.end() && scalar_type(scalar) == ScalarType::kText;
 }
 
-std::string text_in_yaml(std::string_view text) {
-  if (is_plain_word(text)) return std::string(text);
-  std::string quoted = "\"";
-  for (const char c : text) {
-    switch (c) {
-      case '"':
-        quoted += "\\\"";
-        break;
-      case '\\':
-        quoted += "\\\\";
-        break;
-      case '\n':
-        quoted += "\\n";
-        break;
-      case '\t':
-        quoted += "\\t";
-        break;
-      default:
-        quoted += c;
-    }
-  }
-  return quoted + "\"";
-}
-
 /// The shortest decimal that reads back as the same number.
 std::string in_yaml(const Vec2& point) { return fmt::format("[{}, {}]", point.x(), point.y()); }
 
@@ -126,6 +102,30 @@ class Writer final : public DescriptionVisitor {
 };
 
 }  // namespace
+
+std::string text_in_yaml(std::string_view text) {
+  if (is_plain_word(text)) return std::string(text);
+  std::string quoted = "\"";
+  for (const char c : text) {
+    switch (c) {
+      case '"':
+        quoted += "\\\"";
+        break;
+      case '\\':
+        quoted += "\\\\";
+        break;
+      case '\n':
+        quoted += "\\n";
+        break;
+      case '\t':
+        quoted += "\\t";
+        break;
+      default:
+        quoted += c;
+    }
+  }
+  return quoted + "\"";
+}
 
 std::string mission_yaml(const Mission& mission) {
   Mission shown = mission;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <string>
+#include <string_view>
 
 #include "vigil/runtime/mission.hpp"
 
@@ -10,5 +11,8 @@ namespace vigil::runtime {
 /// Reading it gives the same mission again, bit for bit. Where there is a `drone_grid`, it stands instead of its
 /// drones.
 [[nodiscard]] std::string mission_yaml(const Mission& mission);
+
+/// A text as YAML on one line: in quotes, where a YAML reader would take it for something else.
+[[nodiscard]] std::string text_in_yaml(std::string_view text);
 
 }  // namespace vigil::runtime

@@ -15,8 +15,8 @@ namespace vigil::runtime {
 struct Clearances {
   double airborne_pair_m = swarm::DroneObservation::kNever;  ///< between drones that are both in the air
   double active_pair_m = swarm::DroneObservation::kNever;    ///< between drones that are both active
-  double wall_m = swarm::DroneObservation::kNever;           ///< from an airborne drone to the field's border; negative outside
-  double no_fly_m = swarm::DroneObservation::kNever;         ///< from an airborne drone to a no-fly outline; negative inside
+  double wall_m = swarm::DroneObservation::kNever;  ///< from an airborne drone to the field's border; negative outside
+  double no_fly_m = swarm::DroneObservation::kNever;  ///< from an airborne drone to a no-fly outline; negative inside
 };
 
 /// One tick, as it is kept.
@@ -35,8 +35,8 @@ struct LoggedEvent {
   std::string detail;  ///< for people
 };
 
-/// Where a flight is written. Errors surface as exceptions of std::runtime_error from begin(), and from finish(), which says
-/// whether all of it was kept; record() and log() never throw, so that a full disk does not end a flight.
+/// Where a flight is written. Errors surface as exceptions of std::runtime_error from begin(), and from finish(), which
+/// says whether all of it was kept; record() and log() never throw, so that a full disk does not end a flight.
 class Recorder {
  public:
   virtual ~Recorder() = default;

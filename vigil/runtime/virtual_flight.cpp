@@ -41,7 +41,8 @@ VirtualFlight::VirtualFlight(Mission mission, VirtualFleet& fleet, Recorder* rec
       script_(mission_, fleet),
       audit_(audit_limits(mission_), mission_.drones.size()),
       summary_(mission_),
-      ticks_to_fly_(static_cast<std::uint64_t>(std::llround(mission_.simulation.duration_s * mission_.control.rate_hz))),
+      ticks_to_fly_(
+          static_cast<std::uint64_t>(std::llround(mission_.simulation.duration_s * mission_.control.rate_hz))),
       observations_(mission_.drones.size()),
       orders_(mission_.drones.size()),
       footprint_radius_m_(footprint_radius_m(mission_)) {
@@ -50,8 +51,10 @@ VirtualFlight::VirtualFlight(Mission mission, VirtualFleet& fleet, Recorder* rec
 
 void VirtualFlight::watch(const std::string& name, std::vector<Vec2> places, double time_s) {
   const auto known = std::find_if(areas_.begin(), areas_.end(), [&](const auto& log) { return log.name() == name; });
-  if (known == areas_.end()) areas_.emplace_back(name, std::move(places), time_s);
-  else known->watch(std::move(places), time_s);
+  if (known == areas_.end())
+    areas_.emplace_back(name, std::move(places), time_s);
+  else
+    known->watch(std::move(places), time_s);
 }
 
 void VirtualFlight::retarget(double time_s, std::vector<swarm::Command>& commands) {

@@ -81,17 +81,25 @@ bool apply_wish(DroneMemory& memory, CommandKind wish) noexcept {
   // Motors that were stopped in the air stay stopped.
   if (intent == Intent::kEmergencyStop && airborne) return wish == CommandKind::kEmergencyStop;
   switch (wish) {
-    case CommandKind::kEmergencyStop: return set_if(true, Intent::kEmergencyStop);
-    case CommandKind::kMarkFailed: return set_if(true, Intent::kMarkedFailed);
+    case CommandKind::kEmergencyStop:
+      return set_if(true, Intent::kEmergencyStop);
+    case CommandKind::kMarkFailed:
+      return set_if(true, Intent::kMarkedFailed);
     case CommandKind::kTakeOff:
       return set_if(grounded && intent != Intent::kOverride && intent != Intent::kMarkedFailed, Intent::kTakeOff);
-    case CommandKind::kLand: return set_if(airborne, Intent::kLand);
-    case CommandKind::kHold: return set_if(airborne && intent != Intent::kOverride, Intent::kHold);
-    case CommandKind::kOverride: return set_if(airborne, Intent::kOverride);
-    case CommandKind::kResume: return set_if(intent == Intent::kHold || intent == Intent::kMarkedFailed, Intent::kCover);
-    case CommandKind::kGiveBack: return set_if(intent == Intent::kOverride, Intent::kCover);
+    case CommandKind::kLand:
+      return set_if(airborne, Intent::kLand);
+    case CommandKind::kHold:
+      return set_if(airborne && intent != Intent::kOverride, Intent::kHold);
+    case CommandKind::kOverride:
+      return set_if(airborne, Intent::kOverride);
+    case CommandKind::kResume:
+      return set_if(intent == Intent::kHold || intent == Intent::kMarkedFailed, Intent::kCover);
+    case CommandKind::kGiveBack:
+      return set_if(intent == Intent::kOverride, Intent::kCover);
     case CommandKind::kSetTarget:
-    case CommandKind::kStartAfresh: break;
+    case CommandKind::kStartAfresh:
+      break;
   }
   return false;
 }
@@ -120,15 +128,19 @@ Action action_for(const DroneMemory& memory) noexcept {
   const bool lands_already = memory.last_good.mode == VehicleMode::kLanding;
   const bool may_take_off = memory.intent == Intent::kTakeOff && memory.healthy_s > 0.0;
   switch (memory.activity) {
-    case Activity::kGrounded: return may_take_off ? Action::kTakeOff : Action::kNone;
+    case Activity::kGrounded:
+      return may_take_off ? Action::kTakeOff : Action::kNone;
     case Activity::kLanding:
-    case Activity::kBatteryLow: return lands_already ? Action::kNone : Action::kLand;
+    case Activity::kBatteryLow:
+      return lands_already ? Action::kNone : Action::kLand;
     case Activity::kActive:
     case Activity::kHeld:
     case Activity::kRecovering:
     case Activity::kTrackingLost:
-    case Activity::kLinkLost: return memory.intent == Intent::kLand ? Action::kLand : Action::kVelocity;
-    default: return Action::kNone;
+    case Activity::kLinkLost:
+      return memory.intent == Intent::kLand ? Action::kLand : Action::kVelocity;
+    default:
+      return Action::kNone;
   }
 }
 

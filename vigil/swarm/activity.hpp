@@ -32,19 +32,19 @@ enum class Intent : std::uint8_t {
 /// Active, or why not: the paper's chi_i (12) with its reason.
 enum class Activity : std::uint8_t {
   kActive,
-  kNeverSeen,       ///< no position yet
-  kGrounded,        ///< on the ground
+  kNeverSeen,  ///< no position yet
+  kGrounded,   ///< on the ground
   kTakingOff,
   kLanding,
-  kEmergencyStop,   ///< its motors were stopped
-  kOverridden,      ///< a pilot has it
-  kMarkedFailed,    ///< an operator declared it failed
-  kVehicleFailed,   ///< it says itself that it failed
-  kTrackingLost,    ///< its position is too old or not a number
-  kLinkLost,        ///< it has not been heard for too long
-  kBatteryLow,      ///< below the reserve: it lands
-  kHeld,            ///< an operator holds it, or it flies although nobody asked it to
-  kRecovering       ///< healthy again, for less than recovery_s
+  kEmergencyStop,  ///< its motors were stopped
+  kOverridden,     ///< a pilot has it
+  kMarkedFailed,   ///< an operator declared it failed
+  kVehicleFailed,  ///< it says itself that it failed
+  kTrackingLost,   ///< its position is too old or not a number
+  kLinkLost,       ///< it has not been heard for too long
+  kBatteryLow,     ///< below the reserve: it lands
+  kHeld,           ///< an operator holds it, or it flies although nobody asked it to
+  kRecovering      ///< healthy again, for less than recovery_s
 };
 
 /// What the vehicle is asked to do, every tick anew (so a lost message costs one tick).
@@ -53,19 +53,19 @@ enum class Action : std::uint8_t { kNone, kTakeOff, kLand, kVelocity, kStopMotor
 /// What the swarm remembers of one drone between ticks.
 struct DroneMemory {
   Intent intent = Intent::kStayDown;
-  DroneObservation last_good;      ///< the newest observation whose numbers were usable; its ages count on
-  double healthy_s = 0.0;          ///< how long nothing has been wrong with it
-  bool is_recovering = false;      ///< something was wrong with it: recovery_s applies
+  DroneObservation last_good;  ///< the newest observation whose numbers were usable; its ages count on
+  double healthy_s = 0.0;      ///< how long nothing has been wrong with it
+  bool is_recovering = false;  ///< something was wrong with it: recovery_s applies
   Activity activity = Activity::kNeverSeen;
 };
 
 /// Takes this tick's observation into `memory`: keeps the last usable one, with ages that count on.
 void remember(DroneMemory& memory, const DroneObservation& observed, double dt_s) noexcept;
 
-/// Changes `memory.intent` as the operator wishes. False where the wish makes no sense now and is refused: take-off of one
-/// that is not on the ground, that a pilot has or that is marked failed; resuming one that is neither held nor marked
-/// failed; giving back one that nobody took over; landing, holding or taking over one that is not in the air; anything but
-/// another emergency stop for one whose motors were stopped in the air.
+/// Changes `memory.intent` as the operator wishes. False where the wish makes no sense now and is refused: take-off of
+/// one that is not on the ground, that a pilot has or that is marked failed; resuming one that is neither held nor
+/// marked failed; giving back one that nobody took over; landing, holding or taking over one that is not in the air;
+/// anything but another emergency stop for one whose motors were stopped in the air.
 [[nodiscard]] bool apply_wish(DroneMemory& memory, CommandKind wish) noexcept;
 
 /// Decides memory.activity (12) for this tick, and moves the intent on where the vehicle has fulfilled it.

@@ -1,8 +1,8 @@
 #include "vigil/swarm/activity.hpp"
 
-#include <gtest/gtest.h>
-
 #include <limits>
+
+#include <gtest/gtest.h>
 
 namespace vigil::swarm {
 namespace {
@@ -141,7 +141,8 @@ TEST(Activity, An_emergency_stop_is_said_until_a_take_off_is_asked_for_on_the_gr
   ASSERT_TRUE(apply_wish(memory, CommandKind::kEmergencyStop));
   EXPECT_EQ(judged(memory, seen(VehicleMode::kFalling)), Activity::kEmergencyStop);
   EXPECT_EQ(action_for(memory), Action::kStopMotors);
-  for (const CommandKind wish : {CommandKind::kTakeOff, CommandKind::kResume, CommandKind::kHold, CommandKind::kGiveBack})
+  for (const CommandKind wish :
+       {CommandKind::kTakeOff, CommandKind::kResume, CommandKind::kHold, CommandKind::kGiveBack})
     EXPECT_FALSE(apply_wish(memory, wish));
   (void)judged(memory, seen(VehicleMode::kGrounded));
   EXPECT_EQ(action_for(memory), Action::kStopMotors);  // the report may be wrong

@@ -17,9 +17,9 @@ inline constexpr std::array<std::string_view, 14> kActivityWords{
     "active",        "never_seen",     "grounded",      "taking_off", "landing",     "emergency_stop", "overridden",
     "marked_failed", "vehicle_failed", "tracking_lost", "link_lost",  "battery_low", "held",           "recovering"};
 inline constexpr std::array<std::string_view, 5> kActionWords{"none", "take_off", "land", "velocity", "stop_motors"};
-inline constexpr std::array<std::string_view, 10> kCommandWords{"take_off",       "land",       "hold",     "resume",
-                                                                "mark_failed",    "emergency_stop", "override",
-                                                                "give_back",      "set_target", "start_afresh"};
+inline constexpr std::array<std::string_view, 10> kCommandWords{
+    "take_off",       "land",     "hold",      "resume",     "mark_failed",
+    "emergency_stop", "override", "give_back", "set_target", "start_afresh"};
 inline constexpr std::array<std::string_view, 3> kIdleWords{"none", "no_targets", "no_active_drone"};
 
 /// The words of an enumeration, in its own order.

@@ -29,7 +29,7 @@ struct DroneObservation {
   double height_m = 0.0;         ///< above the ground
   double age_s = kNever;         ///< since position was true; kNever: never seen
   VehicleMode mode = VehicleMode::kUnknown;
-  double link_age_s = kNever;    ///< since the vehicle was last heard
+  double link_age_s = kNever;                                 ///< since the vehicle was last heard
   double battery = std::numeric_limits<double>::quiet_NaN();  ///< share of full, 0..1; NaN: not reported
 };
 

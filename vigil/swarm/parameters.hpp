@@ -19,7 +19,7 @@ struct SwarmParameters {
   double basis_smoothness = 1.5;  ///< s
   ergodic::Accounting accounting = ergodic::Accounting::kDroneTime;
   std::optional<double> memory_s;
-  double fade = 0.02;             ///< delta of the faded gradient in units of gradient_scale()
+  double fade = 0.02;  ///< delta of the faded gradient in units of gradient_scale()
   safety::BarrierParameters barrier;
   /// The paper's reading: a drone that is not active is no obstacle, wherever it is.
   bool only_active_are_obstacles = false;

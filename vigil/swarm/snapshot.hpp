@@ -20,15 +20,15 @@ struct DroneSnapshot {
   Vec2 position = Vec2::Zero();  ///< last known
   Vec2 velocity = Vec2::Zero();
   double height_m = 0.0;
-  double age_s = 0.0;            ///< of the position
+  double age_s = 0.0;  ///< of the position
   double link_age_s = 0.0;
-  double battery = 0.0;          ///< share of full; NaN: not reported
+  double battery = 0.0;  ///< share of full; NaN: not reported
   VehicleMode mode = VehicleMode::kUnknown;
   Activity activity = Activity::kNeverSeen;
   bool is_obstacle = false;
-  Vec2 u_nom = Vec2::Zero();     ///< what coverage wanted
-  DroneOrder order;              ///< what was asked of it
-  safety::FilterReport filter;   ///< what held it
+  Vec2 u_nom = Vec2::Zero();    ///< what coverage wanted
+  DroneOrder order;             ///< what was asked of it
+  safety::FilterReport filter;  ///< what held it
 };
 
 /// Why no drone covers anything.
@@ -38,30 +38,32 @@ enum class EventKind : std::uint8_t { kActivityChanged, kWishAccepted, kWishRefu
 
 struct Event {
   EventKind kind = EventKind::kActivityChanged;
-  DroneId drone{};                          ///< of the first three kinds
-  Activity before = Activity::kNeverSeen;   ///< kActivityChanged
-  Activity after = Activity::kNeverSeen;    ///< kActivityChanged
-  CommandKind wish = CommandKind::kHold;    ///< kWishAccepted, kWishRefused
+  DroneId drone{};                         ///< of the first three kinds
+  Activity before = Activity::kNeverSeen;  ///< kActivityChanged
+  Activity after = Activity::kNeverSeen;   ///< kActivityChanged
+  CommandKind wish = CommandKind::kHold;   ///< kWishAccepted, kWishRefused
 };
 
 /// All that one tick decided, for recorders and displays. Sized once; a tick allocates nothing in it.
 struct Snapshot {
-  std::uint64_t tick = 0;      ///< counted from 0
-  double time_s = 0.0;         ///< tick x dt
-  bool has_metric = false;     ///< false before the first sample
-  double metric = 0.0;         ///< eps of (4)
-  double metric_percent = 0.0; ///< of the first metric since the mission or coverage was started afresh
-  std::size_t active = 0;      ///< |I_a(t)| of (13)
+  std::uint64_t tick = 0;       ///< counted from 0
+  double time_s = 0.0;          ///< tick x dt
+  bool has_metric = false;      ///< false before the first sample
+  double metric = 0.0;          ///< eps of (4)
+  double metric_percent = 0.0;  ///< of the first metric since the mission or coverage was started afresh
+  std::size_t active = 0;       ///< |I_a(t)| of (13)
   Idle idle = Idle::kNone;
-  bool fallback = false;       ///< for some drone no velocity satisfied every row
+  bool fallback = false;  ///< for some drone no velocity satisfied every row
   std::vector<DroneSnapshot> drones;
-  std::vector<Event> events;   ///< of this tick; those beyond the capacity are counted in lost_events
+  std::vector<Event> events;  ///< of this tick; those beyond the capacity are counted in lost_events
   std::size_t lost_events = 0;
 
   explicit Snapshot(std::size_t drone_count) : drones(drone_count) { events.reserve(4 * drone_count + 64); }
   void note(const Event& event) noexcept {
-    if (events.size() < events.capacity()) events.push_back(event);
-    else ++lost_events;
+    if (events.size() < events.capacity())
+      events.push_back(event);
+    else
+      ++lost_events;
   }
 };
 

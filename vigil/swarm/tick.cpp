@@ -29,8 +29,7 @@ bool is_steered(Activity activity) {
 /// Whether it may move sideways although nobody here steers it.
 bool may_wander(Activity activity) {
   return activity == Activity::kOverridden || activity == Activity::kMarkedFailed ||
-         activity == Activity::kVehicleFailed || activity == Activity::kTrackingLost ||
-         activity == Activity::kLinkLost;
+         activity == Activity::kVehicleFailed || activity == Activity::kTrackingLost || activity == Activity::kLinkLost;
 }
 
 }  // namespace
@@ -57,8 +56,10 @@ SwarmState::SwarmState(const SwarmParameters& parameters)
 }
 
 void SwarmState::set_target(const CoverageTarget& target) noexcept {
-  if (target.has_targets) target_.phi_k = target.phi_k;
-  else target_.phi_k.setZero();
+  if (target.has_targets)
+    target_.phi_k = target.phi_k;
+  else
+    target_.phi_k.setZero();
   target_.has_targets = target.has_targets;
   target_.no_fly.assign(target.no_fly.begin(), target.no_fly.end());
   fade_delta_ = parameters_.fade * ergodic::gradient_scale(basis_, target_.phi_k);
@@ -111,7 +112,8 @@ void SwarmState::judge_drones(Snapshot& out) noexcept {
     const Activity before = drone.activity;
     judge(drone, parameters_.health, parameters_.dt_s);
     if (drone.activity != before)
-      out.note({.kind = EventKind::kActivityChanged, .drone = DroneId(index), .before = before, .after = drone.activity});
+      out.note(
+          {.kind = EventKind::kActivityChanged, .drone = DroneId(index), .before = before, .after = drone.activity});
   }
 }
 
@@ -146,7 +148,7 @@ void SwarmState::cover(Snapshot& out) noexcept {
   if (out.idle != Idle::kNone) return;
 
   a_k_.array() = basis_.weight().array() * (c_k_ - target_.phi_k).array();  // lambda_k (c_k - phi_k)
-  slopes_.resize(active_.size());                                          // within its capacity
+  slopes_.resize(active_.size());                                           // within its capacity
   kernel_.gradient(active_positions_, a_k_, slopes_);                       // (7)
   for (std::size_t i = 0; i < active_.size(); ++i)                          // (9)
     u_nom_[active_[i]] = ergodic::faded_direction(slopes_[i], parameters_.barrier.u_max_m_s, fade_delta_);

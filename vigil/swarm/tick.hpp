@@ -28,8 +28,8 @@ class SwarmState {
   [[nodiscard]] std::uint64_t ticks() const { return ticks_; }
 
  private:
-  friend void tick(SwarmState& state, std::span<const DroneObservation> observations,
-                   std::span<const Command> commands, Snapshot& out) noexcept;
+  friend void tick(SwarmState& state, std::span<const DroneObservation> observations, std::span<const Command> commands,
+                   Snapshot& out) noexcept;
 
   void take_commands(std::span<const Command> commands, Snapshot& out) noexcept;
   void take_wish(const Command& command, Snapshot& out) noexcept;
@@ -69,11 +69,12 @@ class SwarmState {
   ergodic::Coefficients a_k_;
 };
 
-/// One control tick: takes in `observations` (one per drone), applies `commands`, adds to the coverage statistics, asks the
-/// ergodic controller where to go and the safety filter what of it is allowed, and writes orders and reasons to `out`.
-/// Pure: it depends on nothing but its arguments; it reads no clock, takes no lock, opens nothing, allocates nothing.
-/// The tick lasts parameters().dt_s. Precondition: as many observations, and drones in `out`, as drones; whatever is in the
-/// observations. A command for a drone that does not exist, or a target of the wrong shape, is refused with an event.
+/// One control tick: takes in `observations` (one per drone), applies `commands`, adds to the coverage statistics, asks
+/// the ergodic controller where to go and the safety filter what of it is allowed, and writes orders and reasons to
+/// `out`. Pure: it depends on nothing but its arguments; it reads no clock, takes no lock, opens nothing, allocates
+/// nothing. The tick lasts parameters().dt_s. Precondition: as many observations, and drones in `out`, as drones;
+/// whatever is in the observations. A command for a drone that does not exist, or a target of the wrong shape, is
+/// refused with an event.
 void tick(SwarmState& state, std::span<const DroneObservation> observations, std::span<const Command> commands,
           Snapshot& out) noexcept;
 

@@ -1,11 +1,11 @@
 #include "vigil/swarm/tick.hpp"
 
-#include <gtest/gtest.h>
-
 #include <array>
 #include <cmath>
 #include <limits>
 #include <random>
+
+#include <gtest/gtest.h>
 
 #include "vigil/core/field/density.hpp"
 #include "vigil/testing/allocation_guard.hpp"
@@ -168,7 +168,8 @@ TEST(Tick, Commands_that_cannot_be_carried_out_are_refused_with_an_event) {
   auto misshapen = std::make_shared<CoverageTarget>();
   misshapen->has_targets = true;
   misshapen->phi_k = ergodic::Coefficients::Zero(2, 2);
-  world.step({wish(CommandKind::kLand, 7), set_target(misshapen), set_target(nullptr), wish(CommandKind::kGiveBack, 0)});
+  world.step(
+      {wish(CommandKind::kLand, 7), set_target(misshapen), set_target(nullptr), wish(CommandKind::kGiveBack, 0)});
   std::size_t refused = 0;
   for (const Event& event : world.snapshot.events) refused += event.kind == EventKind::kWishRefused ? 1U : 0U;
   EXPECT_EQ(refused, 4U);
@@ -179,18 +180,38 @@ TEST(Tick, Whatever_is_observed_every_order_is_finite_and_within_the_speed_limit
   std::mt19937_64 random(7);
   IdealWorld world(parameters(5), {{0.5, 0.5}, {1.0, 0.5}, {1.5, 0.5}, {2.0, 0.5}, {2.5, 0.5}});
   world.step({set_target(target_around(world.state, {1.5, 1.5}))});
-  const std::array<double, 8> odd{std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity(),
-                                  -std::numeric_limits<double>::infinity(), 1e300, -1e300, 0.0, -5.0, 1e-310};
+  const std::array<double, 8> odd{std::numeric_limits<double>::quiet_NaN(),
+                                  std::numeric_limits<double>::infinity(),
+                                  -std::numeric_limits<double>::infinity(),
+                                  1e300,
+                                  -1e300,
+                                  0.0,
+                                  -5.0,
+                                  1e-310};
   const auto any_odd = [&] { return odd[random() % odd.size()]; };
   for (int i = 0; i < 5000; ++i) {
     DroneObservation& observed = world.observations[random() % 5];
     switch (random() % 6) {
-      case 0: observed.position = Vec2(any_odd(), any_odd()); break;
-      case 1: observed.velocity = Vec2(any_odd(), any_odd()); break;
-      case 2: observed.age_s = any_odd(); break;
-      case 3: observed.height_m = any_odd(); break;
-      case 4: observed.mode = static_cast<VehicleMode>(random() % 8); break;
-      default: observed = world.observations[0]; observed.position = Vec2(1.0, 1.0); observed.age_s = 0.0; break;
+      case 0:
+        observed.position = Vec2(any_odd(), any_odd());
+        break;
+      case 1:
+        observed.velocity = Vec2(any_odd(), any_odd());
+        break;
+      case 2:
+        observed.age_s = any_odd();
+        break;
+      case 3:
+        observed.height_m = any_odd();
+        break;
+      case 4:
+        observed.mode = static_cast<VehicleMode>(random() % 8);
+        break;
+      default:
+        observed = world.observations[0];
+        observed.position = Vec2(1.0, 1.0);
+        observed.age_s = 0.0;
+        break;
     }
     tick(world.state, world.observations, {}, world.snapshot);
     for (const DroneSnapshot& drone : world.snapshot.drones) {
@@ -227,7 +248,8 @@ TEST(Tick, Start_afresh_forgets_where_the_swarm_has_been) {
 TEST(Tick, It_allocates_nothing_whatever_happens) {
   IdealWorld world(parameters(4), {{0.5, 0.5}, {1.0, 0.5}, {1.5, 0.5}, {2.0, 0.5}});
   const std::vector<Command> first{set_target(target_around(world.state, {1.5, 2.0}))};
-  const std::vector<Command> second{set_target(target_around(world.state, {0.5, 2.0})), wish(CommandKind::kLand, 1),
+  const std::vector<Command> second{set_target(target_around(world.state, {0.5, 2.0})),
+                                    wish(CommandKind::kLand, 1),
                                     {.kind = CommandKind::kHold, .drone = {}, .target = {}}};
   testing::AllocationGuard guard;
   tick(world.state, world.observations, first, world.snapshot);

@@ -40,8 +40,8 @@ runtime::Clearances least(const runtime::Clearances& a, const runtime::Clearance
 
 }  // namespace
 
-CsvRecorder::CsvRecorder(std::filesystem::path directory, std::string mission_text, std::uint64_t keep_every)
-    : folder_(std::move(directory) / "recording"), mission_text_(std::move(mission_text)), keep_every_(keep_every) {
+CsvRecorder::CsvRecorder(const std::filesystem::path& directory, std::string mission_text, std::uint64_t keep_every)
+    : folder_(directory / "recording"), mission_text_(std::move(mission_text)), keep_every_(keep_every) {
   assert(keep_every >= 1);
 }
 

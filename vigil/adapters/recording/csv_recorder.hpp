@@ -18,7 +18,7 @@ class CsvRecorder final : public runtime::Recorder {
  public:
   /// `mission_text`: the effective mission file. `keep_every`: only every so manieth tick is kept (and always the first
   /// and the last), with the least clearances and any fallback of those left out. Precondition: keep_every >= 1.
-  CsvRecorder(std::filesystem::path directory, std::string mission_text, std::uint64_t keep_every = 1);
+  CsvRecorder(const std::filesystem::path& directory, std::string mission_text, std::uint64_t keep_every = 1);
 
   /// RecordingError where the folder or a file cannot be created, or is there already.
   void begin(const runtime::Mission& mission) override;

@@ -231,13 +231,13 @@ class Reader {
     while (rows.next()) {
       has_finished = rows.text(1) == kRecorderSource && rows.text(2) == kFinished;
       if (has_finished) continue;
-      flight_.events.push_back({rows.number(0), std::string(rows.text(1)), std::string(rows.text(2)),
-                                std::string(rows.text(3)), std::string(rows.text(4))});
+      const double time_s = rows.number(0);
+      if (!flight_.events.empty() && time_s < flight_.events.back().time_s) rows.refuse(0, "no earlier time");
+      flight_.events.push_back({time_s, std::string(rows.text(1)), std::string(rows.text(2)), std::string(rows.text(3)),
+                                std::string(rows.text(4))});
     }
     note_cut(rows, kEventFile);
     if (!has_finished) incomplete(fmt::format("{} has no line that says that the recording was finished", kEventFile));
-    std::stable_sort(flight_.events.begin(), flight_.events.end(),
-                     [](const auto& a, const auto& b) { return a.time_s < b.time_s; });
   }
 
   std::filesystem::path folder_;

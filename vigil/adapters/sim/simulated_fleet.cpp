@@ -19,7 +19,8 @@ SimulatedFleet::SimulatedFleet(const FleetParameters& parameters, std::span<cons
   trackers_.reserve(starts.size());
   for (std::size_t i = 0; i < starts.size(); ++i) {
     vehicles_.emplace_back(parameters.vehicle, starts[i], parameters.starts_flying);
-    trackers_.emplace_back(parameters.tracker, parameters.dt_s, dynamics::RandomStream(parameters.seed, i, kTrackerPurpose));
+    trackers_.emplace_back(parameters.tracker, parameters.dt_s,
+                           dynamics::RandomStream(parameters.seed, i, kTrackerPurpose));
   }
   orders_.resize(starts.size() * (delay_ticks_ + 1));
   copy_truth();

@@ -1,8 +1,8 @@
 #include "vigil/adapters/sim/simulated_fleet.hpp"
 
-#include <gtest/gtest.h>
-
 #include <cmath>
+
+#include <gtest/gtest.h>
 
 #include "vigil/testing/allocation_guard.hpp"
 
@@ -177,7 +177,8 @@ TEST(SimulatedFleet, Dropouts_come_as_often_and_last_as_long_as_asked_for) {
     flight.fleet.observe(runtime::MissionTime(0), flight.observed);
     if (flight.observed[0].age_s > 0.0) ++unseen;
   }
-  // One in ten seconds on average, half a second each: a share of 1 - exp(-0.05) of the time, one tick longer by rounding up.
+  // One in ten seconds on average, half a second each: a share of 1 - exp(-0.05) of the time, one tick longer by
+  // rounding up.
   const double busy = 0.1 * (0.5 + 0.5 * kDt);
   EXPECT_NEAR(static_cast<double>(unseen) / kTicks, 1.0 - std::exp(-busy), 0.005);
 }

@@ -25,7 +25,8 @@ class SimulatedTracker {
   void measure(const runtime::TruthSample& truth) noexcept;
   /// Nothing is seen for so long from now on.
   void hide(double for_s) noexcept;
-  /// Position, velocity, height and age of the newest measurement that has arrived; leaves `out` alone before the first.
+  /// Position, velocity, height and age of the newest measurement that has arrived; leaves `out` alone before the
+  /// first.
   void observe(swarm::DroneObservation& out) const noexcept;
 
  private:

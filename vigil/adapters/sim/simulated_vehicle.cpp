@@ -30,7 +30,8 @@ void SimulatedVehicle::obey(const swarm::DroneOrder& order) noexcept {
     case Action::kVelocity:
       if (mode == VehicleMode::kFlying) command_ = order.velocity;
       return;
-    case Action::kNone: break;
+    case Action::kNone:
+      break;
   }
   if (truth_.mode != VehicleMode::kManual) command_.setZero();
 }
@@ -45,10 +46,17 @@ void SimulatedVehicle::advance(double dt_s) noexcept {
     return;
   }
   switch (truth_.mode) {
-    case VehicleMode::kTakingOff: climb(parameters_.altitude_m / parameters_.take_off_s, dt_s); break;
-    case VehicleMode::kLanding: climb(-parameters_.altitude_m / parameters_.landing_s, dt_s); break;
-    case VehicleMode::kFalling: climb(-parameters_.altitude_m / parameters_.emergency_s, dt_s); break;
-    default: break;
+    case VehicleMode::kTakingOff:
+      climb(parameters_.altitude_m / parameters_.take_off_s, dt_s);
+      break;
+    case VehicleMode::kLanding:
+      climb(-parameters_.altitude_m / parameters_.landing_s, dt_s);
+      break;
+    case VehicleMode::kFalling:
+      climb(-parameters_.altitude_m / parameters_.emergency_s, dt_s);
+      break;
+    default:
+      break;
   }
   const dynamics::PlanarState after =
       dynamics::advance(parameters_.motion, {truth_.position, truth_.velocity}, command_, dt_s);

@@ -1,6 +1,5 @@
 #pragma once
 
-
 #include "vigil/core/dynamics/planar_vehicle.hpp"
 #include "vigil/runtime/fleet.hpp"
 

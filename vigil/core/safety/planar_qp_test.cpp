@@ -64,23 +64,26 @@ TEST(PlanarQp, The_reference_problems_have_the_reference_solutions) {
   EXPECT_EQ(count, 200);
 }
 
-/// u - u_nom is a non-negative combination of the holding rows' normals and of -u where the disk holds: the conditions
-/// of Karush, Kuhn and Tucker. Returns the part of u - u_nom that is not.
+/// u - u_nom is a non-negative combination of the normals of rows that are tight and of -u where the disk is: the
+/// conditions of Karush, Kuhn and Tucker, with two of them at most. Returns the part of u - u_nom that is not.
 double kkt_residual(const PlanarProblem& problem, const PlanarQpSolution& solution) {
+  const double rounding = 1e-12 * std::max(1.0, problem.radius);
   std::vector<Vec2> holding;
-  for (const int index : solution.active) {
-    if (index >= 0) holding.push_back(problem.rows[static_cast<std::size_t>(index)].normal.normalized());
+  for (const HalfPlane& r : problem.rows) {
+    if (r.normal.norm() > 0.0 && violation(r, solution.u) > -rounding) holding.push_back(r.normal.normalized());
   }
-  if (solution.on_disk && solution.u.norm() > 0.0) holding.push_back(-solution.u.normalized());
+  if (solution.u.norm() > problem.radius - rounding) holding.push_back(-solution.u.normalized());
   const Vec2 push = solution.u - problem.u_nom;
   double residual = push.norm();
   for (const Vec2& a : holding) residual = std::min(residual, (push - std::max(0.0, a.dot(push)) * a).norm());
   for (std::size_t i = 1; i < holding.size(); ++i) {
-    Eigen::Matrix2d both;
-    both << holding[i - 1], holding[i];
-    const Vec2 multipliers = both.inverse() * push;
-    if (multipliers.minCoeff() >= -1e-9)
+    for (std::size_t j = 0; j < i; ++j) {
+      Eigen::Matrix2d both;
+      both << holding[i], holding[j];
+      const Vec2 multipliers = both.inverse() * push;
+      if (!multipliers.allFinite() || multipliers.minCoeff() < -1e-9) continue;
       residual = std::min(residual, (both * multipliers.cwiseMax(0.0) - push).norm());
+    }
   }
   return residual;
 }

@@ -36,16 +36,18 @@ class PlanarProblems {
  public:
   explicit PlanarProblems(std::uint64_t seed) : random_(seed) {}
 
+  // One draw a statement or an argument of braces, here and below: their order is then the same in every build.
+
   PlanarProblem next() {
     PlanarProblem problem;
     problem.radius = radius();
-    problem.u_nom = uniform(0.0, 3.0) * problem.radius * direction(angle());
-    if (chance(0.02)) problem.u_nom = 1e3 * direction(angle());
+    problem.u_nom = vector(uniform(0.0, 3.0) * problem.radius);
+    if (chance(0.02)) problem.u_nom = vector(1e3);
     if (chance(0.02)) problem.u_nom.setZero();
     const bool one_priority = chance(0.5);
     const auto kind = static_cast<int>(uniform(0.0, 6.0));
     shared_angle_ = angle();
-    shared_point_ = uniform(0.0, 1.0) * problem.radius * direction(angle());
+    shared_point_ = vector(uniform(0.0, 1.0) * problem.radius);
     const int rows = chance(0.01) ? 20 : static_cast<int>(uniform(0.0, 9.0));
     for (int i = 0; i < rows; ++i) {
       HalfPlane row = draw(kind, problem);
@@ -64,6 +66,7 @@ class PlanarProblems {
   bool chance(double p) { return uniform(0.0, 1.0) < p; }
   double angle() { return uniform(0.0, 2.0 * std::numbers::pi); }
   double magnitude(double low, double high) { return std::pow(10.0, uniform(low, high)); }
+  Vec2 vector(double length) { return length * direction(angle()); }
   static Vec2 direction(double angle) { return {std::cos(angle), std::sin(angle)}; }
   double radius() {
     if (chance(0.01)) return 0.0;
@@ -75,25 +78,27 @@ class PlanarProblems {
     const double r = problem.radius;
     switch (kind) {
       case 0:
-        return {magnitude(-1.0, 1.0) * direction(angle()), uniform(-1.0, 0.7) * r};
+        return {vector(magnitude(-1.0, 1.0)), uniform(-1.0, 0.7) * r};
       case 1:
-        return {uniform(0.1, 1.0) * direction(angle()), chance(0.1) ? 0.0 : -magnitude(-12.0, -1.0)};
+        return {vector(uniform(0.1, 1.0)), chance(0.1) ? 0.0 : -magnitude(-12.0, -1.0)};
       case 2:
         return near_parallel(r);
       case 3:
-        return {direction(angle()), uniform(-0.2, 1.2) * r};
+        return {vector(1.0), uniform(-0.2, 1.2) * r};
       case 4:
         return degenerate(r);
       default: {
         const double scale = magnitude(-8.0, 8.0);
-        return {scale * direction(angle()), scale * uniform(-1.0, 0.5) * r};
+        return {vector(scale), scale * uniform(-1.0, 0.5) * r};
       }
     }
   }
 
   HalfPlane near_parallel(double r) {
-    const double turn = (chance(0.5) ? 0.0 : std::numbers::pi) + (chance(0.5) ? 1.0 : -1.0) * magnitude(-13.0, -1.0);
-    if (chance(0.2)) return {direction(angle()), uniform(-1.0, 0.3) * r};
+    const double half_turn = chance(0.5) ? 0.0 : std::numbers::pi;
+    const double sign = chance(0.5) ? 1.0 : -1.0;
+    const double turn = half_turn + sign * magnitude(-13.0, -1.0);
+    if (chance(0.2)) return {vector(1.0), uniform(-1.0, 0.3) * r};
     return {direction(shared_angle_ + turn), (chance(0.5) ? uniform(-0.5, 0.3) : magnitude(-12.0, -1.0)) * r};
   }
 
@@ -103,7 +108,7 @@ class PlanarProblems {
     const double quarter = 0.5 * std::numbers::pi * std::floor(uniform(0.0, 4.0));
     if (chance(0.2)) return {direction(shared_angle_ + quarter), 0.0};
     if (chance(0.2)) return {Vec2(std::round(std::cos(quarter)), std::round(std::sin(quarter))), 0.1 * r};
-    if (chance(0.1)) return {direction(angle()), r};
+    if (chance(0.1)) return {vector(1.0), r};
     const Vec2 normal = direction(chance(0.5) ? angle() : shared_angle_ + quarter);
     return {normal, normal.dot(shared_point_)};
   }
