@@ -21,7 +21,7 @@ ARROWS = {
     "adapters": (*CORE, "swarm", "runtime", "protocol"),  # each adapter is a room of its own: never another one
     "apps": (*CORE, "swarm", "runtime", "adapters", "protocol"),
     "testing": (*CORE, "swarm", "runtime"),
-    "bench": (*CORE, "swarm", "runtime", "adapters", "protocol", "testing"),
+    "bench": (*CORE, "swarm", "runtime", "adapters", "apps", "protocol", "testing"),
     "fuzz": (*CORE, "swarm", "runtime", "adapters", "protocol", "testing"),
 }
 

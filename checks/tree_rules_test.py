@@ -36,6 +36,13 @@ class TreeRules(unittest.TestCase):
     def test_a_header_without_a_guard_is_refused(self):
         self.assertEqual(len(self.complaints("a.hpp", "")), 1)
 
+    def test_seeds_of_fuzzers_may_be_any_bytes(self):
+        with tempfile.TemporaryDirectory() as folder:
+            seed = pathlib.Path(folder) / "fuzz" / "corpus" / "a_fuzzer" / "seed"
+            seed.parent.mkdir(parents=True)
+            seed.write_bytes(b"\xc0\x00")
+            self.assertEqual(list(tree_rules.complaints(pathlib.Path(folder))), [])
+
     def test_an_empty_tree_is_refused(self):
         with tempfile.TemporaryDirectory() as folder:
             self.assertEqual(len(list(tree_rules.complaints(pathlib.Path(folder)))), 1)
