@@ -125,6 +125,16 @@ TEST(ReadRecording, Rows_of_drones_without_their_tick_are_left_out) {
 
 TEST(ReadRecording, One_that_was_never_finished_says_so) {
   const TemporaryFolder folder;
+  record_flight(folder.path(), 5, 1);
+  const std::string events = contents(folder.file("events.csv"));
+  overwrite(folder.file("events.csv"), events.substr(0, events.rfind('\n', events.size() - 2) + 1));
+  const RecordedFlight flight = read_recording(folder.path());
+  EXPECT_FALSE(flight.is_complete);
+  EXPECT_EQ(flight.tick_count(), 5U);
+}
+
+TEST(ReadRecording, One_without_a_tick_is_refused) {
+  const TemporaryFolder folder;
   {
     CsvRecorder recorder(folder.path(), "");
     recorder.begin(mission_of(1));
