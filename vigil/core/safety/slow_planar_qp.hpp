@@ -41,7 +41,6 @@ class Solver {
       size_ = std::max(size_, std::abs(rows_.back().c));
     }
     size_ = std::max(size_, radius_);
-    noise_size_ = std::max(size_, std::hypot(u_nom_.x, u_nom_.y));
   }
 
   /// The radius or the largest offset, at least 1.
@@ -57,7 +56,7 @@ class Solver {
   }
 
  private:
-  static constexpr long double kNoise = 1e-18L;  ///< relative to the size of the data and u_nom; grows with every
+  static constexpr long double kNoise = 1e-18L;  ///< relative to the size of the data; grows with every
   /// priority, so that what one priority reached the next cannot find empty
 
   [[nodiscard]] Answer answer(const std::array<double, kPriorities>* claimed, long double slack) const {
@@ -81,9 +80,9 @@ class Solver {
   }
 
   [[nodiscard]] bool allowed(const std::vector<Line>& rows, const Point& u, long double noise) const {
-    if (std::hypot(u.x, u.y) > radius_ + noise * noise_size_) return false;
+    if (std::hypot(u.x, u.y) > radius_ + noise * size_) return false;
     for (const Line& row : rows) {
-      if (violation(row, u) > noise * noise_size_) return false;
+      if (violation(row, u) > noise * size_) return false;
     }
     return true;
   }
@@ -106,7 +105,7 @@ class Solver {
     const long double b = line.b / length;
     const long double c = line.c / length;
     const long double squared = (radius_ - c) * (radius_ + c);
-    if (squared < -kNoise * noise_size_ * radius_) return;
+    if (squared < -kNoise * size_ * radius_) return;
     const long double half = std::sqrt(std::max(0.0L, squared));
     points.push_back({a * c - b * half, b * c + a * half});
     points.push_back({a * c + b * half, b * c - a * half});
@@ -161,8 +160,12 @@ class Solver {
     const long double length = std::hypot(u_nom_.x, u_nom_.y);
     if (length > 0) points.push_back({u_nom_.x * (radius_ / length), u_nom_.y * (radius_ / length)});
     for (const Line& row : rows) {
-      const long double v = violation(row, u_nom_);
-      points.push_back({u_nom_.x + v * row.a, u_nom_.y + v * row.b});
+      Point foot = u_nom_;
+      for (int twice = 0; twice < 2; ++twice) {  // the second step removes the rounding of a far u_nom
+        const long double v = violation(row, foot);
+        foot = {foot.x + v * row.a, foot.y + v * row.b};
+      }
+      points.push_back(foot);
     }
     result.objective = HUGE_VALL;
     for (const Point& u : points) {
@@ -180,7 +183,6 @@ class Solver {
   long double radius_;
   std::vector<Line> rows_;
   long double size_ = 1;
-  long double noise_size_ = 1;
 };
 
 }  // namespace vigil::safety::slow
