@@ -9,7 +9,7 @@
 #include "vigil/core/ergodic/kernel.hpp"
 #include "vigil/core/ergodic/literal_kernel.hpp"
 #include "vigil/core/safety/planar_qp.hpp"
-#include "vigil/core/safety/random_planar_qp.hpp"
+#include "vigil/testing/random_planar_qp.hpp"
 
 namespace vigil {
 namespace {

@@ -8,7 +8,7 @@
 #include <cstring>
 
 #include "vigil/core/safety/planar_qp.hpp"
-#include "vigil/core/safety/random_planar_qp.hpp"
+#include "vigil/testing/random_planar_qp.hpp"
 
 namespace {
 

@@ -7,7 +7,7 @@
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
-#include "vigil/core/ergodic/reference_mixture.hpp"
+#include "vigil/testing/reference_mixture.hpp"
 
 namespace vigil::ergodic {
 namespace {

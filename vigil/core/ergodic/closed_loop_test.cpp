@@ -9,7 +9,7 @@
 
 #include "vigil/core/ergodic/coverage_statistics.hpp"
 #include "vigil/core/ergodic/gradient_controller.hpp"
-#include "vigil/core/ergodic/reference_mixture.hpp"
+#include "vigil/testing/reference_mixture.hpp"
 
 namespace vigil::ergodic {
 namespace {

@@ -37,16 +37,11 @@ void CoverageStatistics::add(Kernel& kernel, std::span<const Vec2> positions, st
   active_set_ = active_set;
   if (positions.empty()) return;
 
-  // dS = (f - S/memory) dt over dt_s with f held: S <- S exp(-dt/memory) + f memory (1 - exp(-dt/memory)); without
-  // memory S + f dt.
-  const double kept = memory_s_ ? std::exp(-dt_s / *memory_s_) : 1.0;
-  const double gained_s = memory_s_ ? -*memory_s_ * std::expm1(-dt_s / *memory_s_) : dt_s;
-
-  const auto drones = static_cast<double>(positions.size());
-  const double each_s = accounting_ == Accounting::kElapsedTime ? gained_s / drones : gained_s;
-  sum_ *= kept;
+  const double kept_share = kept(dt_s);
+  const double each_s = gain_s(dt_s, positions.size());
+  sum_ *= kept_share;
   add_evenly(kernel, positions, each_s, sum_);
-  time_s_ = time_s_ * kept + each_s * drones;
+  time_s_ = time_s_ * kept_share + each_s * static_cast<double>(positions.size());
   has_samples_ = true;
 }
 
@@ -54,6 +49,28 @@ void CoverageStatistics::average(Coefficients& c_k) const noexcept {
   assert(c_k.rows() == sum_.rows() && c_k.cols() == sum_.cols());
   c_k = past_averages_;
   if (time_s_ > 0.0) c_k += sum_ / time_s_;
+}
+
+// dS = (f - S/memory) dt over dt_s with f held: S <- S exp(-dt/memory) + f memory (1 - exp(-dt/memory)); without memory
+// S + f dt.
+double CoverageStatistics::kept(double dt_s) const noexcept { return memory_s_ ? std::exp(-dt_s / *memory_s_) : 1.0; }
+
+double CoverageStatistics::gain_s(double dt_s, std::size_t drones) const noexcept {
+  const double gained_s = memory_s_ ? -*memory_s_ * std::expm1(-dt_s / *memory_s_) : dt_s;
+  return accounting_ == Accounting::kElapsedTime ? gained_s / static_cast<double>(drones) : gained_s;
+}
+
+// With c_k = past + S/T: T (c_k - phi_k) = S - T (phi_k - past).
+void CoverageStatistics::excess(const Coefficients& phi_k, Coefficients& d_k) const noexcept {
+  d_k = sum_ - time_s_ * (phi_k - past_averages_);
+}
+
+void CoverageStatistics::foresee(Kernel& kernel, std::span<const Vec2> positions, const Coefficients& phi_k,
+                                 double dt_s, Coefficients& d_k) const noexcept {
+  assert(dt_s > 0.0 && !positions.empty());
+  const double each_s = gain_s(dt_s, positions.size());
+  d_k = kept(dt_s) * d_k - each_s * static_cast<double>(positions.size()) * (phi_k - past_averages_);
+  add_evenly(kernel, positions, each_s, d_k);
 }
 
 void CoverageStatistics::reset() noexcept {

@@ -33,6 +33,17 @@ class CoverageStatistics {
   /// c_k of (4) or (14), 1/m; all zero before the first sample. Precondition: c_k is (K+1) x (K+1).
   void average(Coefficients& c_k) const noexcept;
 
+  /// d_k = T (c_k - phi_k), s/m: how much too long drones have been where f_k is. Precondition: both (K+1) x (K+1).
+  void excess(const Coefficients& phi_k, Coefficients& d_k) const noexcept;
+  /// What another sample, add() of the same active set, would make of excess(): d_k before it becomes d_k after it.
+  /// Precondition as for add(); at least one position.
+  void foresee(Kernel& kernel, std::span<const Vec2> positions, const Coefficients& phi_k, double dt_s,
+               Coefficients& d_k) const noexcept;
+  /// The share of the past that is left after dt_s.
+  [[nodiscard]] double kept(double dt_s) const noexcept;
+  /// How many seconds a sample of dt_s adds for each of its drones.
+  [[nodiscard]] double gain_s(double dt_s, std::size_t drones) const noexcept;
+
   /// False before the first sample and after reset().
   [[nodiscard]] bool has_samples() const noexcept { return has_samples_; }
   /// Forgets everything: "start coverage afresh".

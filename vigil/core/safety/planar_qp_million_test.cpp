@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
 
-#include "vigil/core/safety/random_planar_qp.hpp"
+#include "vigil/testing/random_planar_qp.hpp"
 
 namespace vigil::safety {
 namespace {

@@ -8,7 +8,7 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-#include "vigil/core/safety/random_planar_qp.hpp"
+#include "vigil/testing/random_planar_qp.hpp"
 
 namespace vigil::safety {
 namespace {

@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "vigil/core/safety/planar_qp.hpp"
-#include "vigil/core/safety/slow_planar_qp.hpp"
+#include "vigil/testing/slow_planar_qp.hpp"
 
 namespace vigil::safety {
 
