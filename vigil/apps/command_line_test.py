@@ -141,7 +141,6 @@ class CommandLine(unittest.TestCase):
     def test_a_full_disk_ends_with_a_reason_and_not_with_a_crash(self):
         def limit_files():
             import resource
-            signal.signal(signal.SIGXFSZ, signal.SIG_IGN)
             resource.setrlimit(resource.RLIMIT_FSIZE, (100_000, 100_000))
 
         result = run("simulate", PAPER, "--out", self.out, preexec_fn=limit_files)

@@ -17,6 +17,7 @@ void note_interrupt(int signal_number) {
 void catch_interrupts() {
   std::signal(SIGINT, note_interrupt);
   std::signal(SIGTERM, note_interrupt);
+  std::signal(SIGXFSZ, SIG_IGN);  // a file that may not grow further is an error of that file, not the end of a flight
 }
 
 bool is_interrupted() noexcept { return interrupted != 0; }

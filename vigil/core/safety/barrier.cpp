@@ -19,6 +19,10 @@ double lag_of(const BarrierParameters& parameters) {
   return parameters.kind == BarrierKind::kLagAware ? parameters.lag_s : 0.0;
 }
 
+double margin_of(const BarrierParameters& parameters) {
+  return parameters.kind == BarrierKind::kLagAware ? parameters.margin_m : 0.0;
+}
+
 double gamma(const BarrierParameters& parameters, double gain, double h) {
   return parameters.kind == BarrierKind::kPaper ? gain * h * h * h : gain * h;
 }
@@ -102,7 +106,7 @@ PairBarrier barrier_of_distance(const BarrierParameters& parameters, const Body&
                                 double distance_m, double gain) {
   const double lag = lag_of(parameters);
   const double u_max = parameters.u_max_m_s;
-  const double distance = distance_m + (parameters.kind == BarrierKind::kLagAware ? parameters.margin_m : 0.0);
+  const double distance = distance_m + margin_of(parameters);
   const double speed = other.is_controlled ? 0.0 : std::max(0.0, other.uncooperative_speed_m_s);
   const double drift = u_max * std::max(0.0, own.age_s) + std::max(u_max, speed) * std::max(0.0, other.age_s);
   PairBarrier barrier;
@@ -171,13 +175,14 @@ std::optional<HalfPlane> wall_row(const BarrierParameters& parameters, const fie
                                   int wall) {
   static const std::array<Vec2, 4> kInward{Vec2(1.0, 0.0), Vec2(-1.0, 0.0), Vec2(0.0, 1.0), Vec2(0.0, -1.0)};
   const double distance = wall_distance(field, z, wall);
-  if (beyond_wall_range(parameters, distance, parameters.wall_distance_m)) return std::nullopt;
-  const double offset = fixed_offset(parameters, distance, parameters.wall_distance_m);
+  const double radius = parameters.wall_distance_m + margin_of(parameters);
+  if (beyond_wall_range(parameters, distance, radius)) return std::nullopt;
+  const double offset = fixed_offset(parameters, distance, radius);
   return binding(parameters, {kInward[static_cast<std::size_t>(wall)], offset, Priority::kWall});
 }
 
 double no_fly_radius(const BarrierParameters& parameters) {
-  return std::hypot(parameters.no_fly_buffer_m, lag_of(parameters) * parameters.u_max_m_s);
+  return std::hypot(parameters.no_fly_buffer_m + margin_of(parameters), lag_of(parameters) * parameters.u_max_m_s);
 }
 
 std::size_t outline_length(std::span<const field::Segment> edges) {

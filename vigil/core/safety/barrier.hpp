@@ -45,8 +45,8 @@ struct PairBarrier {
 /// The distance from z to a wall of the field (0 left, 1 right, 2 bottom, 3 top): negative outside.
 [[nodiscard]] double wall_distance(const field::Field& field, const Vec2& z, int wall);
 
-/// (11): kPaper 2 d n.u >= -gamma_d(d^2 - R_wall^2); kLagAware n.u >= -gamma_d(d - R_wall). Behind the wall the row
-/// points back inside. None beyond wall_range_m.
+/// (11): kPaper 2 d n.u >= -gamma_d(d^2 - R_wall^2); kLagAware n.u >= -gamma_d(d - R_wall - margin). Behind the wall
+/// the row points back inside. None beyond wall_range_m.
 [[nodiscard]] std::optional<HalfPlane> wall_row(const BarrierParameters& parameters, const field::Field& field,
                                                 const Vec2& z, int wall);
 
@@ -73,7 +73,7 @@ struct WayOut {
                              const Vec2& z);
 
 /// The distance of z from a no-fly edge at which h = 0: no_fly_buffer_m for kPaper, and for kLagAware
-/// sqrt(no_fly_buffer_m^2 + (lag u_max)^2).
+/// sqrt((no_fly_buffer_m + margin_m)^2 + (lag u_max)^2).
 [[nodiscard]] double no_fly_radius(const BarrierParameters& parameters);
 
 }  // namespace vigil::safety

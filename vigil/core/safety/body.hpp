@@ -9,8 +9,8 @@ namespace vigil::safety {
 
 enum class BarrierKind : std::uint8_t {
   kPaper,    ///< (10), (11): h_o = |p_ij|^2 - R_s^2, h_w = d^2 - R_wall^2, gamma(h) = gain h^3
-  kLagAware  ///< on z = p + lag v: h = |z_ij|^2 - R_z^2, R_z^2 = (R_s + margin)^2 + (2 lag u_max)^2, h_w = d - R_wall,
-             ///< gamma(h) = gain h
+  kLagAware  ///< on z = p + lag v: h = |z_ij|^2 - R_z^2, R_z^2 = (R_s + margin)^2 + (2 lag u_max)^2, h_w = d - R_wall
+             ///< - margin, gamma(h) = gain h
 };
 
 /// What the filter guarantees and how firmly. Metres, seconds; one value for the whole swarm.
@@ -25,7 +25,8 @@ struct BarrierParameters {
   double pair_gain = 5.0;           ///< of gamma for pairs: 1/(m^4 s) for kPaper, 1/s for kLagAware
   double wall_gain = 5.0;           ///< of gamma for walls and no-fly edges, the same units
   double lag_s = 0.0;               ///< tau >= 0 of v' = (u - v)/tau; kLagAware only
-  double margin_m = 0.0;            ///< >= 0, added to R_s for delay, noise and acceleration limits; kLagAware only
+  double margin_m = 0.0;  ///< >= 0, added to R_s, R_wall and the no-fly buffer for delay, noise and acceleration
+                          ///< limits; kLagAware only
   /// Pairs farther apart have no row, walls and edges likewise (R_threat); none: derived, so that no row is ever
   /// missed. Whatever is set, nobody can step over a boundary within one tick: see least_sensing_range().
   std::optional<double> sensing_range_m;
