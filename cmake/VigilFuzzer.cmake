@@ -1,6 +1,6 @@
 # vigil_fuzzer(NAME SOURCES ... [DEPENDS ...])
 #
-# A libFuzzer program (clang, preset "fuzz") that `./test` runs from the seeds in fuzz/corpus/NAME, which must exist.
+# A libFuzzer program (clang, preset "asan-ubsan") that `./test` runs from the seeds in fuzz/corpus/NAME, which must exist.
 # The rooms it depends on are instrumented by the preset. `fuzzers` builds them all; fuzzers.txt in the build folder
 # names them, one a line.
 function(vigil_fuzzer name)
@@ -19,7 +19,7 @@ endfunction()
 
 if(VIGIL_BUILD_FUZZERS)
   if(NOT CMAKE_CXX_COMPILER_ID MATCHES "Clang")
-    message(FATAL_ERROR "Fuzz targets need clang: cmake --preset fuzz")
+    message(FATAL_ERROR "Fuzz targets need clang: cmake --preset asan-ubsan")
   endif()
   add_custom_target(fuzzers)
   target_compile_options(vigil_compile INTERFACE -fsanitize=fuzzer-no-link)
