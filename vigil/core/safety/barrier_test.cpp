@@ -85,7 +85,7 @@ TEST(Barrier, The_lag_aware_rows_are_linear_in_h_on_the_point_p_plus_lag_v) {
   EXPECT_NEAR(2.0 * d * row->offset, -5.0 * h, 1e-15);
   const auto wall = wall_row(parameters, {3.0, 3.0}, Vec2(0.2, 1.5), 0);
   ASSERT_TRUE(wall);
-  EXPECT_NEAR(wall->offset, -5.0 * (0.2 - 0.17), 1e-15);
+  EXPECT_NEAR(wall->offset, -5.0 * (0.2 - 0.17 - 0.02), 1e-15);
 }
 
 TEST(Barrier, However_large_the_gain_a_tick_uses_up_no_more_than_h) {
@@ -146,7 +146,8 @@ TEST(Barrier, Where_h_is_negative_the_row_asks_to_leave_at_a_linear_rate_of_at_m
     const PairBarrier barrier = of_drones(parameters);
     EXPECT_NEAR(row_at(parameters, barrier, barrier.radius_m - 0.01)->offset, 0.05, 1e-12);
     EXPECT_NEAR(row_at(parameters, barrier, 0.01)->offset, 0.15, 1e-15);
-    EXPECT_NEAR(wall_row(parameters, {3.0, 3.0}, Vec2(0.16, 1.0), 0)->offset, 0.05, 1e-12);
+    const double wall = parameters.wall_distance_m + (parameters.kind == BarrierKind::kPaper ? 0.0 : 0.02);
+    EXPECT_NEAR(wall_row(parameters, {3.0, 3.0}, Vec2(wall - 0.01, 1.0), 0)->offset, 0.05, 1e-12);
   }
 }
 
