@@ -134,13 +134,27 @@ inline PlanarProblem jittered(PlanarProblem problem, double step, unsigned patte
   return problem;
 }
 
+/// True where two rows are parallel but for 1e-2 rad, or a row leaves next to nothing of the disk: only then can
+/// rounding be magnified a thousand times.
+inline bool is_delicate(const PlanarProblem& problem) {
+  for (std::size_t i = 0; i < problem.rows.size(); ++i) {
+    const Vec2 normal = problem.rows[i].normal.normalized();
+    if (problem.rows[i].offset > problem.rows[i].normal.norm() * problem.radius * (1.0 - 1e-6)) return true;
+    for (std::size_t j = 0; j < i; ++j) {
+      const Vec2 other = problem.rows[j].normal.normalized();
+      if (std::abs(normal.x() * other.y() - normal.y() * other.x()) < 1e-2) return true;
+    }
+  }
+  return false;
+}
+
 /// u is compared wherever the problem determines it. Where rows are nearly parallel, or touch the circle, offsets that
 /// differ by less than rounding have answers that differ by far more than 1e-9, and asking for u would be asking for
 /// luck. There the exact answers of some problems show how far rounding reaches: the problem as it is, with every
 /// settled priority loosened by 1e-13, with the priorities settled at the violations that the solution states, loosened
 /// by 1e-13 and by 1e-12, and with its offsets moved by 1e-13 up and down. Every violation and the distance from u_nom
-/// have to lie among theirs, give or take their spread. The excuse is taken only where 1e-13 changes something by 1e-10
-/// at least. The rows themselves, with the stated violations, have to hold in every case.
+/// have to lie among theirs, give or take their spread. The excuse is taken only in delicate problems where 1e-13
+/// changes something by 1e-10 at least. The rows themselves, with the stated violations, have to hold in every case.
 inline Agreement compare(const PlanarProblem& problem, const PlanarQpSolution& solution) {
   const slow::Solver slow(problem.u_nom, problem.rows, problem.radius);
   const auto scale = static_cast<double>(slow.size_of_data());
@@ -164,6 +178,7 @@ inline Agreement compare(const PlanarProblem& problem, const PlanarQpSolution& s
   for (std::size_t p = 0; p < kPriorities; ++p)
     same &= std::abs(solution.violation[p] - exact.violation[p]) <= tolerance;
   if (same) return Agreement::kSame;
+  if (!is_delicate(problem)) return Agreement::kDifferent;
 
   std::vector<slow::Answer> answers{exact, slow.answer(1e-13L * scale),
                                     slow.answer_given(solution.violation, 1e-13L * scale),
