@@ -1,6 +1,7 @@
 #include "vigil/apps/progress_bar.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <unistd.h>
 
 #include <fmt/format.h>
@@ -12,7 +13,7 @@ constexpr int kWidth = 30;
 constexpr std::chrono::milliseconds kRedraw{100};
 
 std::string bar(double share) {
-  const int full = static_cast<int>(share * kWidth + 0.5);
+  const int full = static_cast<int>(std::lround(share * kWidth));
   return fmt::format("{:#>{}}{:.>{}}", "", full, "", kWidth - full);
 }
 

@@ -26,8 +26,9 @@ PlanarState advance(const PlanarVehicle& vehicle, const PlanarState& state, cons
   if (saturated_s <= 0.0) return advance_exponentially(state, u, vehicle.lag_s, dt_s);
 
   const Vec2 acceleration = error * (limit / length);
-  const PlanarState turned{state.position + state.velocity * saturated_s + acceleration * (0.5 * saturated_s * saturated_s),
-                           state.velocity + acceleration * saturated_s};
+  const PlanarState turned{
+      state.position + state.velocity * saturated_s + acceleration * (0.5 * saturated_s * saturated_s),
+      state.velocity + acceleration * saturated_s};
   return advance_exponentially(turned, u, vehicle.lag_s, dt_s - saturated_s);
 }
 

@@ -6,8 +6,8 @@
 
 namespace vigil::dynamics {
 
-/// How a vehicle's velocity follows its command: v' = (u - v) / lag, |v'| <= acceleration limit. With lag 0 and no limit it
-/// is the paper's single integrator (3), p' = u.
+/// How a vehicle's velocity follows its command: v' = (u - v) / lag, |v'| <= acceleration limit. With lag 0 and no
+/// limit it is the paper's single integrator (3), p' = u.
 struct PlanarVehicle {
   double lag_s = 0.0;                             ///< tau >= 0
   std::optional<double> acceleration_limit_m_s2;  ///< > 0; needs lag_s > 0
@@ -22,6 +22,7 @@ struct PlanarState {
 /// The state after dt_s under the constant command u, exactly (no numerical integration): the error u - v keeps its
 /// direction, shrinks at the acceleration limit while it is longer than limit x lag, exponentially after that.
 /// Precondition: finite input, dt_s >= 0.
-[[nodiscard]] PlanarState advance(const PlanarVehicle& vehicle, const PlanarState& state, const Vec2& u, double dt_s) noexcept;
+[[nodiscard]] PlanarState advance(const PlanarVehicle& vehicle, const PlanarState& state, const Vec2& u,
+                                  double dt_s) noexcept;
 
 }  // namespace vigil::dynamics

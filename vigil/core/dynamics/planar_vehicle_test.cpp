@@ -1,9 +1,9 @@
 #include "vigil/core/dynamics/planar_vehicle.hpp"
 
-#include <gtest/gtest.h>
-
 #include <algorithm>
 #include <cmath>
+
+#include <gtest/gtest.h>
 
 namespace vigil::dynamics {
 namespace {
@@ -30,7 +30,8 @@ TEST(PlanarVehicle, Without_lag_the_velocity_is_the_command) {
 TEST(PlanarVehicle, The_closed_form_solves_the_differential_equation) {
   const PlanarState start{Vec2(0.2, -0.4), Vec2(-0.5, 0.3)};
   for (const double dt : {0.02, 0.3, 2.0}) {
-    for (const std::optional<double>& limit : {std::optional<double>{}, std::optional<double>{0.4}, std::optional<double>{50.0}}) {
+    for (const std::optional<double>& limit :
+         {std::optional<double>{}, std::optional<double>{0.4}, std::optional<double>{50.0}}) {
       const PlanarVehicle vehicle{0.3, limit};
       const PlanarState exact = advance(vehicle, start, Vec2(1.0, 0.5), dt);
       const PlanarState slow = integrate(vehicle, start, Vec2(1.0, 0.5), dt, 200'000);

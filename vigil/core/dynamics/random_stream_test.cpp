@@ -1,8 +1,8 @@
 #include "vigil/core/dynamics/random_stream.hpp"
 
-#include <gtest/gtest.h>
-
 #include <cmath>
+
+#include <gtest/gtest.h>
 
 namespace vigil::dynamics {
 namespace {

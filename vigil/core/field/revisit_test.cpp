@@ -33,8 +33,8 @@ TEST(RevisitLog, The_worst_gap_is_that_of_the_place_that_waited_longest) {
   log.see(at_first, kRadius, 1.0);
   log.see(at_second, kRadius, 4.0);
   log.see(at_first, kRadius, 6.0);
-  EXPECT_DOUBLE_EQ(log.worst_s(6.0), 5.0);    // the first place, from 1 s to 6 s
-  EXPECT_DOUBLE_EQ(log.worst_s(10.0), 6.0);   // the second one, from 4 s on
+  EXPECT_DOUBLE_EQ(log.worst_s(6.0), 5.0);   // the first place, from 1 s to 6 s
+  EXPECT_DOUBLE_EQ(log.worst_s(10.0), 6.0);  // the second one, from 4 s on
   EXPECT_DOUBLE_EQ(log.age_s(10.0), 6.0);
 }
 
