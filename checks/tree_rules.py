@@ -47,10 +47,20 @@ def complaints_about_text(path, text):
             yield f"{path}:{number}: a path of one machine: {line.strip()}"
 
 
+def complaints_about_test(root, path):
+    """A test that no CMakeLists.txt beside it names is never built, and fails nobody."""
+    if not path.name.endswith("_test.cpp"):
+        return
+    lists = root / path.parent / "CMakeLists.txt"
+    if not lists.is_file() or not re.search(rf"\b{re.escape(path.name)}\b", lists.read_text()):
+        yield f"{path}: no CMakeLists.txt beside it builds this test"
+
+
 def complaints(root):
     seen = 0
     for path in files_of(root):
         seen += 1
+        yield from complaints_about_test(root, path)
         yield from complaints_about_name(path)
         if path.suffix in TEXT and path.parts[:2] != NOT_TEXT:
             yield from complaints_about_text(path, (root / path).read_text())

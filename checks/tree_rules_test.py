@@ -43,6 +43,14 @@ class TreeRules(unittest.TestCase):
             seed.write_bytes(b"\xc0\x00")
             self.assertEqual(list(tree_rules.complaints(pathlib.Path(folder))), [])
 
+    def test_a_test_that_nothing_builds_is_refused(self):
+        with tempfile.TemporaryDirectory() as folder:
+            root = pathlib.Path(folder)
+            (root / "a_test.cpp").write_text("")
+            self.assertEqual(len(list(tree_rules.complaints(root))), 1)
+            (root / "CMakeLists.txt").write_text("vigil_test(a SOURCES a_test.cpp)\n")
+            self.assertEqual(list(tree_rules.complaints(root)), [])
+
     def test_an_empty_tree_is_refused(self):
         with tempfile.TemporaryDirectory() as folder:
             self.assertEqual(len(list(tree_rules.complaints(pathlib.Path(folder)))), 1)
