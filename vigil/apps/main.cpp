@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "vigil/adapters/recording/recording_error.hpp"
+#include "vigil/apps/campaign_command.hpp"
 #include "vigil/apps/check_command.hpp"
 #include "vigil/apps/failure.hpp"
 #include "vigil/apps/report_command.hpp"
@@ -19,6 +20,7 @@ namespace {
 /// What the command line asks for. Parsed once, handed to exactly one command.
 struct Arguments {
   SimulateOptions simulate;
+  CampaignOptions campaign;
   CheckOptions check;
   ReportArguments report;
 };
@@ -38,6 +40,23 @@ CLI::App* add_simulate(CLI::App& program, SimulateOptions& options) {
   command->add_option("--record-every", options.keep_every, "Keep every Nth tick in the recording")
       ->check(CLI::Range(1, 1'000'000));
   command->add_flag("--json", options.json, "Print summary.json instead of a text");
+  add_settings(command, options.settings);
+  return command;
+}
+
+CLI::App* add_campaign(CLI::App& program, CampaignOptions& options) {
+  CLI::App* command = program.add_subcommand("campaign", "Fly a mission many times, each time a little different, and judge the runs");
+  command->add_option("MISSION", options.mission, "The mission file (YAML)")->required();
+  command->add_option("--runs", options.runs, "How many runs")->required()->check(CLI::Range(1, 10'000'000));
+  command->add_option("--out", options.out, "Directory for plan.json, runs.jsonl and summary.json; the same command goes on there")->required();
+  command->add_option("--seed", options.seed, "The seed of the campaign: which runs it has (default 1)");
+  command->add_option("--seconds", options.seconds, "How long to fly instead of what the mission says");
+  command->add_option("--vary", options.vary, "What differs from run to run beside the seed: starts, targets, faults[=N], key=a..b, key=a|b|c")
+      ->type_name("WHAT")
+      ->take_all();
+  command->add_option("--threads", options.threads, "Runs at a time (default: one a core)")->check(CLI::Range(1, 1024));
+  command->add_flag("--json", options.json, "Print summary.json instead of a table");
+  command->add_flag("--mpi", options.mpi, "Share the runs with the other processes that mpirun started");
   add_settings(command, options.settings);
   return command;
 }
@@ -65,6 +84,7 @@ int run(int argc, char** argv) {
       "Start with: vigil simulate missions/paper.yaml --out out/paper && vigil report out/paper");
   Arguments arguments;
   const CLI::App* simulate_command = add_simulate(program, arguments.simulate);
+  const CLI::App* campaign_command = add_campaign(program, arguments.campaign);
   const CLI::App* check_command = add_check(program, arguments.check);
   const CLI::App* report_command = add_report(program, arguments.report);
   const CLI::App* schema_command =
@@ -77,6 +97,7 @@ int run(int argc, char** argv) {
                   fmt::format("{}; `vigil --help` and `vigil COMMAND --help` list what there is", error.what()));
   }
   if (simulate_command->parsed()) return simulate(arguments.simulate);
+  if (campaign_command->parsed()) return campaign(arguments.campaign);
   if (check_command->parsed()) return check(arguments.check);
   if (report_command->parsed()) return report(arguments.report);
   if (schema_command->parsed()) return print_schema();
