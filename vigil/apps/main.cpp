@@ -45,13 +45,19 @@ CLI::App* add_simulate(CLI::App& program, SimulateOptions& options) {
 }
 
 CLI::App* add_campaign(CLI::App& program, CampaignOptions& options) {
-  CLI::App* command = program.add_subcommand("campaign", "Fly a mission many times, each time a little different, and judge the runs");
+  CLI::App* command =
+      program.add_subcommand("campaign", "Fly a mission many times, each time a little different, and judge the runs");
   command->add_option("MISSION", options.mission, "The mission file (YAML)")->required();
   command->add_option("--runs", options.runs, "How many runs")->required()->check(CLI::Range(1, 10'000'000));
-  command->add_option("--out", options.out, "Directory for plan.json, runs.jsonl and summary.json; the same command goes on there")->required();
+  command
+      ->add_option("--out", options.out,
+                   "Directory for plan.json, runs.jsonl and summary.json; the same command goes on there")
+      ->required();
   command->add_option("--seed", options.seed, "The seed of the campaign: which runs it has (default 1)");
   command->add_option("--seconds", options.seconds, "How long to fly instead of what the mission says");
-  command->add_option("--vary", options.vary, "What differs from run to run beside the seed: starts, targets, faults[=N], key=a..b, key=a|b|c")
+  command
+      ->add_option("--vary", options.vary,
+                   "What differs from run to run beside the seed: starts, targets, faults[=N], key=a..b, key=a|b|c")
       ->type_name("WHAT")
       ->take_all();
   command->add_option("--threads", options.threads, "Runs at a time (default: one a core)")->check(CLI::Range(1, 1024));
