@@ -34,6 +34,7 @@ constexpr std::chrono::milliseconds kPatience{20};
 /// What a process of a team hands in when it has flown its share.
 const std::string kFarewell;
 
+/// Finds out before anything is written whether the variations can be drawn at all.
 runtime::CampaignPlan plan_of(const CampaignOptions& options) {
   std::vector<std::string> settings = options.settings;
   if (options.seconds) settings.push_back(fmt::format("simulation.duration_s={}", *options.seconds));
@@ -42,6 +43,7 @@ runtime::CampaignPlan plan_of(const CampaignOptions& options) {
   for (const std::string& text : options.vary) plan.variations.push_back(runtime::parse_variation(text));
   plan.seed = options.seed;
   plan.runs = options.runs;
+  static_cast<void>(runtime::draw_run(plan, 0));
   return plan;
 }
 
@@ -85,7 +87,7 @@ class Leader {
       : options_(options),
         team_(team),
         plan_(plan_of(options)),
-        folder_(options.out, checked(plan_), [this](const runtime::RunRecord& record) { tally_.add(record); }) {}
+        folder_(options.out, plan_, [this](const runtime::RunRecord& record) { tally_.add(record); }) {}
 
   int lead() {
     const std::vector<std::uint64_t> missing = folder_.missing();
@@ -97,12 +99,6 @@ class Leader {
   }
 
  private:
-  /// Finds out before anything is written whether the variations can be drawn at all.
-  static const runtime::CampaignPlan& checked(const runtime::CampaignPlan& plan) {
-    static_cast<void>(runtime::draw_run(plan, 0));
-    return plan;
-  }
-
   void fly_and_collect(const std::vector<std::uint64_t>& missing) {
     CampaignWorkers workers = begin(options_, plan_, missing, team_);
     ProgressBar progress("campaign");
