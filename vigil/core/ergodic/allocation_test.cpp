@@ -6,6 +6,7 @@
 
 #include "vigil/core/ergodic/coverage_statistics.hpp"
 #include "vigil/core/ergodic/gradient_controller.hpp"
+#include "vigil/core/ergodic/look_ahead.hpp"
 #include "vigil/testing/allocation_guard.hpp"
 
 namespace vigil::ergodic {
@@ -26,6 +27,10 @@ TEST_P(AllocationTest, The_coverage_law_allocates_nothing) {
     all.emplace_back(basis, accounting, 5.0);
   }
   double sum = 0.0;
+  LookAhead look_ahead(basis, {.u_max_m_s = 0.3, .dt_s = 0.02, .horizon_s = 1.0}, positions.size());
+  const AllowedRegion region{.field = basis.field(), .wall_distance_m = 0.1, .no_fly_distance_m = 0.0, .no_fly = {}};
+  std::vector<Departure> departures;
+  for (std::size_t drone = 0; drone < positions.size(); ++drone) departures.push_back({drone, positions[drone]});
 
   const testing::AllocationGuard guard;
   for (CoverageStatistics& statistics : all) {
@@ -36,6 +41,9 @@ TEST_P(AllocationTest, The_coverage_law_allocates_nothing) {
       a_k = basis.weight().cwiseProduct(c_k - phi_k);
       kernel.gradient(active, a_k, std::span(b).first(drones));
       sum += faded_direction(b[0], 0.3, gradient_scale(basis, phi_k)).norm() + ergodic_metric(basis, c_k, phi_k);
+      look_ahead.steer(kernel, statistics, phi_k, region, std::span(departures).first(drones),
+                       std::span(b).first(drones));
+      sum += b[0].norm();
     }
     statistics.reset();
   }
