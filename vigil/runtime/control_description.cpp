@@ -5,14 +5,20 @@
 namespace vigil::runtime {
 namespace {
 
-constexpr std::array<Choice, 1> kController{{
+constexpr std::array<Choice, 2> kController{{
     {"gradient", "(9): down the gradient of the ergodic metric"},
+    {"look_ahead", "the next seconds of all drones' paths, improved together: covers many times better"},
 }};
 
 constexpr std::array<Choice, 3> kAccounting{{
     {"drone_time", "every drone-second counts alike; continuous when a drone drops out"},
     {"elapsed_time", "every second counts alike, shared by the drones active in it: the likely intent of (14)"},
     {"paper_eq14", "(14) as printed: the averages of all phases are added, so survivors spread evenly"},
+}};
+
+constexpr std::array<Choice, 2> kMemory{{
+    {"fading", "with the time constant memory_s, so that new targets are soon covered to their share"},
+    {"endless", "not at all: a plain average over all time, as in (4)"},
 }};
 
 constexpr std::array<Choice, 2> kBarrier{{
@@ -85,9 +91,14 @@ void describe(DescriptionVisitor& visitor, ControlSection& control) {
       {0.0, 100.0, false}, control.speed_limit_m_s);
   visitor.choice({.name = "controller", .meaning = "what steers the drones to their targets"}, kController,
                  control.controller);
+  visitor.number({.name = "look_ahead_s",
+                  .meaning = "how far the controller looks ahead; `look_ahead` only",
+                  .unit = "s",
+                  .default_text = "0.6 of the time in which a drone crosses its share of the field"},
+                 {0.0, 1e5, false}, control.look_ahead_s);
   visitor.number({.name = "fade",
                   .meaning = "the share of its usual size below which a weak gradient slows drones down; 0: (9) to the "
-                             "letter, full speed always"},
+                             "letter, full speed always; `gradient` only"},
                  {0.0, 1000.0}, control.fade);
   visitor.whole_number(
       {.name = "basis_max_index", .meaning = "the highest index K of the Fourier basis (5) on either axis"}, {1, 64},
@@ -97,10 +108,11 @@ void describe(DescriptionVisitor& visitor, ControlSection& control) {
                  {0.0, 10.0, false}, control.basis_smoothness);
   visitor.choice({.name = "accounting", .meaning = "how coverage is averaged when drones drop out or return"},
                  kAccounting, control.accounting);
+  visitor.choice({.name = "memory", .meaning = "whether past coverage fades"}, kMemory, control.memory);
   visitor.number({.name = "memory_s",
-                  .meaning = "the time constant with which past coverage fades",
+                  .meaning = "the time constant with which past coverage fades; `fading` only",
                   .unit = "s",
-                  .default_text = "none: a plain average over all time"},
+                  .default_text = "20 times what a drone needs along the field's longer side"},
                  {0.0, 1e9, false}, control.memory_s);
 }
 
@@ -148,7 +160,8 @@ void describe(DescriptionVisitor& visitor, SensorSection& sensor) {
                  kLength, sensor.footprint_radius_m);
 }
 
-std::string_view name_of(ControllerKind value) { return kController.at(static_cast<std::size_t>(value)).name; }
+std::string_view name_of(ergodic::ControllerKind value) { return kController.at(static_cast<std::size_t>(value)).name; }
+std::string_view name_of(Memory value) { return kMemory.at(static_cast<std::size_t>(value)).name; }
 std::string_view name_of(ergodic::Accounting value) { return kAccounting.at(static_cast<std::size_t>(value)).name; }
 std::string_view name_of(safety::BarrierKind value) { return kBarrier.at(static_cast<std::size_t>(value)).name; }
 std::string_view name_of(Obstacles value) { return kObstacles.at(static_cast<std::size_t>(value)).name; }

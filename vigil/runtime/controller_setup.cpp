@@ -24,7 +24,9 @@ swarm::SwarmParameters swarm_parameters(const Mission& mission, swarm::Intent fi
   parameters.basis_max_index = mission.control.basis_max_index;
   parameters.basis_smoothness = mission.control.basis_smoothness;
   parameters.accounting = mission.control.accounting;
-  parameters.memory_s = mission.control.memory_s;
+  parameters.memory_s = memory_s(mission);
+  parameters.controller = mission.control.controller;
+  parameters.look_ahead_s = mission.control.look_ahead_s;
   parameters.fade = mission.control.fade;
   parameters.barrier = barrier_parameters(mission);
   parameters.only_active_are_obstacles = mission.safety.obstacles == Obstacles::kActiveOnly;

@@ -185,6 +185,8 @@ void add_contradictions(std::vector<MalformedMission>& table) {
       "safety.sensing_range_m", "must be at least 0.212 m");
   add("a wall range below R_wall + u_max dt", but("lag_s: 0.1\nhealth", "lag_s: 0.1\n  wall_range_m: 0.1\nhealth"),
       "safety.wall_range_m", "must be at least 0.106 m");
+  add("a memory that is endless and fades", but("rate_hz: 50", "memory: endless\n  memory_s: 60"), "control.memory_s",
+      "must be left out there");
   add("a lag for the paper's barrier", but("barrier: lag_aware", "barrier: paper"), "safety.lag_s", "must be 0 there");
   add("a lag for the ideal vehicle", but("{model: first_order_lag, lag_s: 0.1}", "{model: ideal, lag_s: 0.1}"),
       "simulation.vehicle.lag_s", "has no meaning");

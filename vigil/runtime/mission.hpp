@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "vigil/core/ergodic/controller_kind.hpp"
 #include "vigil/core/ergodic/coverage_statistics.hpp"
 #include "vigil/core/field/field.hpp"
 #include "vigil/core/safety/filter.hpp"
@@ -69,17 +70,22 @@ struct DroneGridSection {
   friend bool operator==(const DroneGridSection&, const DroneGridSection&) = default;
 };
 
-enum class ControllerKind : std::uint8_t { kGradient };
+enum class Memory : std::uint8_t {
+  kFading,  ///< past coverage fades, so that a new target does not wait until hours of it are evened out
+  kEndless  ///< (4): a plain average over all time
+};
 
 struct ControlSection {
   double rate_hz = 50.0;
   double speed_limit_m_s = 0.0;  ///< u_max
-  ControllerKind controller = ControllerKind::kGradient;
-  double fade = 0.02;             ///< delta of the faded gradient, in units of gradient_scale(); 0: (9) to the letter
+  ergodic::ControllerKind controller = ergodic::ControllerKind::kLookAhead;
+  std::optional<double> look_ahead_s;  ///< `look_ahead`: its horizon; default from field, speed and active drones
+  double fade = 0.1;  ///< `gradient`: delta of the faded gradient, in units of gradient_scale(); 0: (9) to the letter
   int basis_max_index = 10;       ///< K
   double basis_smoothness = 1.5;  ///< s of lambda_k
   ergodic::Accounting accounting = ergodic::Accounting::kDroneTime;
-  std::optional<double> memory_s;  ///< none: a plain average
+  Memory memory = Memory::kFading;
+  std::optional<double> memory_s;  ///< time constant of kFading; default from field and speed, see mission_setup.hpp
   friend bool operator==(const ControlSection&, const ControlSection&) = default;
 };
 

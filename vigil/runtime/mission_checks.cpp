@@ -81,6 +81,16 @@ void check_lag(const Mission& mission, const MissionSource& source) {
   if (mission.safety.margin_m > 0.0) refuse_for_paper("safety.margin_m");
 }
 
+void check_memory(const Mission& mission, const MissionSource& source) {
+  if (mission.control.memory != Memory::kEndless || !mission.control.memory_s) return;
+  source.refuse({.place = "",
+                 .key = "control.memory_s",
+                 .value = "",
+                 .problem = "has no meaning for `memory: endless`",
+                 .valid = "must be left out there",
+                 .advice = "take `memory: fading`, or leave it out"});
+}
+
 void check_ranges(const Mission& mission, const MissionSource& source) {
   const safety::BarrierParameters barrier = barrier_parameters(mission);
   const double least = safety::least_sensing_range(barrier);
@@ -261,6 +271,7 @@ double rounding_m(const Mission& mission) {
 void check_numbers(const Mission& mission, const MissionSource& source) {
   check_field(mission, source);
   check_distances(mission, source);
+  check_memory(mission, source);
   check_lag(mission, source);
   check_ranges(mission, source);
   check_vehicle(mission, source);

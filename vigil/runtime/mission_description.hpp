@@ -133,7 +133,8 @@ void describe(DescriptionVisitor& visitor, EventEntry& event);
 
 /// The names of enumerators in a mission file, for messages and reports.
 [[nodiscard]] std::string_view name_of(OutsideField value);
-[[nodiscard]] std::string_view name_of(ControllerKind value);
+[[nodiscard]] std::string_view name_of(ergodic::ControllerKind value);
+[[nodiscard]] std::string_view name_of(Memory value);
 [[nodiscard]] std::string_view name_of(ergodic::Accounting value);
 [[nodiscard]] std::string_view name_of(safety::BarrierKind value);
 [[nodiscard]] std::string_view name_of(Obstacles value);

@@ -116,19 +116,34 @@ std::string_view meaning_of(ergodic::Accounting accounting) {
   return "(14) as printed";
 }
 
+std::string explain_controller(const Mission& mission) {
+  const ControlSection& control = mission.control;
+  if (control.controller == ergodic::ControllerKind::kGradient) {
+    return fmt::format("gradient, fade {:.6g}{}", control.fade,
+                       control.fade == 0.0 ? ": (9) to the letter" : ": (9) without chatter");
+  }
+  return fmt::format("look_ahead, {:.6g} s while {} drones are active{}", look_ahead_s(mission), mission.drones.size(),
+                     control.look_ahead_s ? " (given)" : " (default; longer when fewer are)");
+}
+
+std::string explain_memory(const Mission& mission) {
+  const std::optional<double> fading_s = memory_s(mission);
+  if (!fading_s) return "endless: a plain average over all time, as in (4)";
+  return fmt::format("past coverage fades with {} ({})", in_words(*fading_s, "s"),
+                     mission.control.memory_s ? "given" : "default");
+}
+
 std::string explain_control(const Mission& mission) {
   const ControlSection& control = mission.control;
   std::string text = "control\n";
   text += line("tick", fmt::format("{:.6g} ms at {:.6g} Hz; at most {:.6g} m/s", 1e3 * tick_s(mission), control.rate_hz,
                                    control.speed_limit_m_s));
-  text += line("controller", fmt::format("{}, fade {:.6g}{}", name_of(control.controller), control.fade,
-                                         control.fade == 0.0 ? ": (9) to the letter" : ": (9) without chatter"));
+  text += line("controller", explain_controller(mission));
   text += line("basis", fmt::format("{} coefficients (K = {}), lambda_k = (1 + |k|^2)^-{:.6g}",
                                     (control.basis_max_index + 1) * (control.basis_max_index + 1),
                                     control.basis_max_index, control.basis_smoothness));
   text += line("accounting", fmt::format("{}: {}", name_of(control.accounting), meaning_of(control.accounting)));
-  text += line("memory", control.memory_s ? fmt::format("past coverage fades with {}", in_words(*control.memory_s, "s"))
-                                          : "none: a plain average over all time, as in (4)");
+  text += line("memory", explain_memory(mission));
   return text;
 }
 
@@ -233,7 +248,10 @@ Json control_json(const Mission& mission) {
           {"basis_max_index", control.basis_max_index},
           {"basis_smoothness", control.basis_smoothness},
           {"accounting", name_of(control.accounting)},
-          {"memory_s", control.memory_s ? Json(*control.memory_s) : Json(nullptr)}};
+          {"look_ahead_s",
+           control.controller == ergodic::ControllerKind::kLookAhead ? Json(look_ahead_s(mission)) : Json(nullptr)},
+          {"memory", name_of(control.memory)},
+          {"memory_s", memory_s(mission) ? Json(*memory_s(mission)) : Json(nullptr)}};
 }
 
 Json events_json(const Mission& mission) {

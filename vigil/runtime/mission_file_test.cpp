@@ -32,7 +32,8 @@ TEST(MissionFile, The_papers_mission_says_what_the_paper_says) {
   EXPECT_EQ(mission.targets.clusters.size(), 3U);
   EXPECT_EQ(mission.control.speed_limit_m_s, 0.3);
   EXPECT_EQ(mission.control.fade, 0.0);
-  EXPECT_FALSE(mission.control.memory_s);
+  EXPECT_EQ(mission.control.controller, ergodic::ControllerKind::kGradient);
+  EXPECT_EQ(mission.control.memory, Memory::kEndless);
   EXPECT_EQ(mission.safety.barrier, safety::BarrierKind::kPaper);
   EXPECT_EQ(mission.safety.obstacles, Obstacles::kActiveOnly);
   ASSERT_EQ(mission.simulation.events.size(), 1U);

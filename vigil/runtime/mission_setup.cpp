@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <iterator>
 
+#include "vigil/core/ergodic/look_ahead.hpp"
+
 namespace vigil::runtime {
 namespace {
 
@@ -26,6 +28,18 @@ double sigma_min_m(const Mission& mission) {
 
 double footprint_radius_m(const Mission& mission) {
   return mission.sensor.footprint_radius_m.value_or(0.1 * monitored_field(mission).shorter_side());
+}
+
+double look_ahead_s(const Mission& mission) {
+  return mission.control.look_ahead_s.value_or(
+      ergodic::default_look_ahead_s(monitored_field(mission), mission.drones.size(), mission.control.speed_limit_m_s));
+}
+
+std::optional<double> memory_s(const Mission& mission) {
+  constexpr double kCrossings = 20.0;
+  if (mission.control.memory == Memory::kEndless) return std::nullopt;
+  const double crossing_s = mission.field.size_m.maxCoeff() / mission.control.speed_limit_m_s;
+  return mission.control.memory_s.value_or(kCrossings * crossing_s);
 }
 
 safety::BarrierParameters barrier_parameters(const Mission& mission) {

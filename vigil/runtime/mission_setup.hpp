@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -23,6 +24,11 @@ namespace vigil::runtime {
 [[nodiscard]] double sigma_min_m(const Mission& mission);
 /// sensor.footprint_radius_m, by default 10 % of the field's shorter side.
 [[nodiscard]] double footprint_radius_m(const Mission& mission);
+/// How far `look_ahead` looks while every drone is active: control.look_ahead_s, by default its own choice.
+[[nodiscard]] double look_ahead_s(const Mission& mission);
+/// The time constant with which past coverage fades: control.memory_s, by default 20 times what a drone needs along the
+/// field's longer side at control.speed_limit_m_s. None where control.memory is endless.
+[[nodiscard]] std::optional<double> memory_s(const Mission& mission);
 /// All that the filter is to keep. Its ranges stay unset where the mission leaves them to be derived.
 [[nodiscard]] safety::BarrierParameters barrier_parameters(const Mission& mission);
 

@@ -33,6 +33,21 @@ TEST(MissionSetup, A_target_outside_is_moved_to_the_border) {
   EXPECT_TRUE(target_in_field(right(), Vec2(0.0, 7.0)).isApprox(Vec2(2.0, 3.0), kRounding));
 }
 
+TEST(MissionSetup, The_past_fades_in_twenty_times_the_time_to_cross_the_field) {
+  Mission mission = right();
+  mission.control.memory_s.reset();
+  mission.control.speed_limit_m_s = 0.5;
+  EXPECT_DOUBLE_EQ(memory_s(mission).value(), 20.0 * mission.field.size_m.maxCoeff() / 0.5);
+  mission.control.memory_s = 70.0;
+  EXPECT_EQ(memory_s(mission), 70.0);
+}
+
+TEST(MissionSetup, An_endless_memory_is_a_plain_average) {
+  Mission mission = right();
+  mission.control.memory = Memory::kEndless;
+  EXPECT_FALSE(memory_s(mission));
+}
+
 TEST(MissionSetup, What_a_mission_leaves_open_follows_from_the_field_and_the_separation) {
   const Mission mission = parse_mission(right_mission_but("sensor: {footprint_radius_m: 0.3}\n", ""), "right");
   EXPECT_DOUBLE_EQ(sigma_min_m(mission), 0.05 * 3.0);

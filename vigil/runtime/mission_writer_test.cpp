@@ -25,7 +25,7 @@ TEST(MissionWriter, A_right_mission_survives_writing) {
 
 TEST(MissionWriter, It_writes_defaults_but_not_what_is_derived) {
   const std::string yaml = mission_yaml(parse_mission(right_mission(), "right"));
-  EXPECT_NE(yaml.find("  fade: 0.02\n"), std::string::npos);
+  EXPECT_NE(yaml.find("  fade: 0.1\n"), std::string::npos);
   EXPECT_NE(yaml.find("  tracker:\n    noise_m: 0\n"), std::string::npos);
   EXPECT_EQ(yaml.find("sensing_range_m"), std::string::npos);
 }

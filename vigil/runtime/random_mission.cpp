@@ -103,13 +103,18 @@ class Maker {
   }
 
   void make_control() {
-    mission_.control = {.rate_hz = dice_.between(10.0, 100.0),
-                        .speed_limit_m_s = dice_.between(0.1, 0.5),
-                        .fade = dice_.between(0.0, 1.0),
-                        .basis_max_index = static_cast<int>(1 + dice_.below(64)),
-                        .basis_smoothness = dice_.between(0.5, 3.0),
-                        .accounting = static_cast<ergodic::Accounting>(dice_.below(3)),
-                        .memory_s = dice_.maybe(10.0, 1000.0)};
+    mission_.control = {
+        .rate_hz = dice_.between(10.0, 100.0),
+        .speed_limit_m_s = dice_.between(0.1, 0.5),
+        .controller = dice_.coin() ? ergodic::ControllerKind::kGradient : ergodic::ControllerKind::kLookAhead,
+        .look_ahead_s = dice_.maybe(0.1, 10.0),
+        .fade = dice_.between(0.0, 1.0),
+        .basis_max_index = static_cast<int>(1 + dice_.below(64)),
+        .basis_smoothness = dice_.between(0.5, 3.0),
+        .accounting = static_cast<ergodic::Accounting>(dice_.below(3)),
+        .memory = dice_.coin() ? Memory::kFading : Memory::kEndless,
+        .memory_s = std::nullopt};
+    if (mission_.control.memory == Memory::kFading) mission_.control.memory_s = dice_.maybe(10.0, 1000.0);
   }
 
   void make_safety() {

@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <optional>
 
+#include "vigil/core/ergodic/controller_kind.hpp"
 #include "vigil/core/ergodic/coverage_statistics.hpp"
 #include "vigil/core/field/field.hpp"
 #include "vigil/core/safety/filter.hpp"
@@ -19,7 +20,10 @@ struct SwarmParameters {
   double basis_smoothness = 1.5;  ///< s
   ergodic::Accounting accounting = ergodic::Accounting::kDroneTime;
   std::optional<double> memory_s;
-  double fade = 0.02;  ///< delta of the faded gradient in units of gradient_scale()
+  ergodic::ControllerKind controller = ergodic::ControllerKind::kLookAhead;
+  double fade = 0.1;  ///< kGradient: delta of the faded gradient in units of gradient_scale()
+  /// kLookAhead: how far it looks; none: as long as a drone takes to cross 0.6 of its share of the field.
+  std::optional<double> look_ahead_s;
   safety::BarrierParameters barrier;
   /// The paper's reading: a drone that is not active is no obstacle, wherever it is.
   bool only_active_are_obstacles = false;

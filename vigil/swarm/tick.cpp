@@ -4,6 +4,7 @@
 #include <cassert>
 
 #include "vigil/core/ergodic/gradient_controller.hpp"
+#include "vigil/core/safety/barrier.hpp"
 
 namespace vigil::swarm {
 namespace {
@@ -15,6 +16,15 @@ CoverageTarget no_target(const ergodic::Basis& basis) {
   return target;
 }
 
+ergodic::LookAheadParameters look_ahead_parameters(const SwarmParameters& parameters) {
+  ergodic::LookAheadParameters result;
+  result.u_max_m_s = parameters.barrier.u_max_m_s;
+  result.lag_s = parameters.barrier.lag_s;
+  result.dt_s = parameters.dt_s;
+  result.horizon_s = parameters.look_ahead_s;
+  return result;
+}
+
 bool fits(const CoverageTarget& target, const ergodic::Basis& basis) {
   const bool has_shape =
       target.phi_k.rows() == basis.indices_per_axis() && target.phi_k.cols() == basis.indices_per_axis();
@@ -24,6 +34,12 @@ bool fits(const CoverageTarget& target, const ergodic::Basis& basis) {
 /// Whether the filter computes the drone's velocity: it flies by our commands, and where it is, is known.
 bool is_steered(Activity activity) {
   return activity == Activity::kActive || activity == Activity::kHeld || activity == Activity::kRecovering;
+}
+
+/// Whether it goes up or down by itself over one place: commanded to stand still, which is what a drone that gives way
+/// to nobody may do, since u = 0 satisfies every barrier that is not broken yet.
+bool stands_still(Activity activity) {
+  return activity == Activity::kTakingOff || activity == Activity::kLanding || activity == Activity::kBatteryLow;
 }
 
 /// Whether it may move sideways although nobody here steers it.
@@ -39,6 +55,7 @@ SwarmState::SwarmState(const SwarmParameters& parameters)
       basis_(parameters.field, parameters.basis_max_index, parameters.basis_smoothness),
       kernel_(basis_),
       statistics_(basis_, parameters.accounting, parameters.memory_s),
+      look_ahead_(basis_, look_ahead_parameters(parameters), parameters.drones),
       filter_(parameters.barrier, parameters.field, parameters.drones),
       target_(no_target(basis_)),
       drones_(parameters.drones),
@@ -52,7 +69,9 @@ SwarmState::SwarmState(const SwarmParameters& parameters)
   active_.reserve(parameters.drones);
   active_before_.reserve(parameters.drones);
   active_positions_.reserve(parameters.drones);
+  departures_.reserve(parameters.drones);
   slopes_.reserve(parameters.drones);
+  active_u_.reserve(parameters.drones);
 }
 
 void SwarmState::set_target(const CoverageTarget& target) noexcept {
@@ -63,6 +82,7 @@ void SwarmState::set_target(const CoverageTarget& target) noexcept {
   target_.has_targets = target.has_targets;
   target_.no_fly.assign(target.no_fly.begin(), target.no_fly.end());
   fade_delta_ = parameters_.fade * ergodic::gradient_scale(basis_, target_.phi_k);
+  look_ahead_.decide_at_once();
 }
 
 void SwarmState::take_wish(const Command& command, Snapshot& out) noexcept {
@@ -94,6 +114,7 @@ void SwarmState::take_commands(std::span<const Command> commands, Snapshot& out)
     } else if (command.kind == CommandKind::kStartAfresh) {
       statistics_.reset();
       has_first_metric_ = false;
+      look_ahead_.decide_at_once();
       out.note({.kind = EventKind::kStartedAfresh});
     } else {
       take_wish(command, out);
@@ -122,18 +143,18 @@ void SwarmState::gather_active() noexcept {
   active_before_.swap(active_);
   active_.clear();
   active_positions_.clear();
+  departures_.clear();
   for (std::size_t index = 0; index < drones_.size(); ++index) {
     if (drones_[index].activity != Activity::kActive) continue;
     active_.push_back(index);
-    active_positions_.push_back(drones_[index].last_good.position);
+    const DroneObservation& known = drones_[index].last_good;
+    active_positions_.push_back(known.position);
+    departures_.push_back({.drone = index, .position = known.position, .velocity = known.velocity});
   }
   if (active_ != active_before_) ++active_set_;
 }
 
-void SwarmState::cover(Snapshot& out) noexcept {
-  std::fill(u_nom_.begin(), u_nom_.end(), Vec2::Zero());
-  out.active = active_.size();
-  out.idle = !target_.has_targets ? Idle::kNoTargets : active_.empty() ? Idle::kNoActiveDrone : Idle::kNone;
+void SwarmState::measure_coverage(Snapshot& out) noexcept {
   // Hovering for want of targets is no coverage: it would weigh on the statistics of the targets to come.
   if (target_.has_targets) statistics_.add(kernel_, active_positions_, active_set_, parameters_.dt_s);
   statistics_.average(c_k_);
@@ -145,13 +166,37 @@ void SwarmState::cover(Snapshot& out) noexcept {
     has_first_metric_ = true;
   }
   out.metric_percent = out.has_metric && first_metric_ > 0.0 ? 100.0 * out.metric / first_metric_ : 0.0;
-  if (out.idle != Idle::kNone) return;
+}
 
+void SwarmState::go_down_the_gradient() noexcept {
   a_k_.array() = basis_.weight().array() * (c_k_ - target_.phi_k).array();  // lambda_k (c_k - phi_k)
   slopes_.resize(active_.size());                                           // within its capacity
   kernel_.gradient(active_positions_, a_k_, slopes_);                       // (7)
   for (std::size_t i = 0; i < active_.size(); ++i)                          // (9)
-    u_nom_[active_[i]] = ergodic::faded_direction(slopes_[i], parameters_.barrier.u_max_m_s, fade_delta_);
+    active_u_[i] = ergodic::faded_direction(slopes_[i], parameters_.barrier.u_max_m_s, fade_delta_);
+}
+
+void SwarmState::look_ahead() noexcept {
+  const ergodic::AllowedRegion region{.field = parameters_.field,
+                                      .wall_distance_m = parameters_.barrier.wall_distance_m,
+                                      .no_fly_distance_m = safety::no_fly_radius(parameters_.barrier),
+                                      .no_fly = target_.no_fly};
+  look_ahead_.steer(kernel_, statistics_, target_.phi_k, region, departures_, active_u_);
+}
+
+void SwarmState::cover(Snapshot& out) noexcept {
+  std::fill(u_nom_.begin(), u_nom_.end(), Vec2::Zero());
+  out.active = active_.size();
+  out.idle = !target_.has_targets ? Idle::kNoTargets : active_.empty() ? Idle::kNoActiveDrone : Idle::kNone;
+  measure_coverage(out);
+  if (out.idle != Idle::kNone) return;
+
+  active_u_.resize(active_.size());  // within its capacity
+  if (parameters_.controller == ergodic::ControllerKind::kGradient)
+    go_down_the_gradient();
+  else
+    look_ahead();
+  for (std::size_t i = 0; i < active_.size(); ++i) u_nom_[active_[i]] = active_u_[i];
 }
 
 double SwarmState::assumed_age(const DroneMemory& drone) const noexcept {
@@ -168,7 +213,7 @@ safety::Body SwarmState::body_of(const DroneMemory& drone) const noexcept {
   body.position = drone.last_good.position;
   body.velocity = drone.last_good.velocity;
   body.age_s = assumed_age(drone);
-  body.is_controlled = is_steered(drone.activity);
+  body.is_controlled = is_steered(drone.activity) || stands_still(drone.activity);
   body.is_obstacle = parameters_.only_active_are_obstacles ? drone.activity == Activity::kActive
                                                            : is_airborne(drone, parameters_.health);
   body.uncooperative_speed_m_s = may_wander(drone.activity) ? parameters_.barrier.u_max_m_s : 0.0;

@@ -6,6 +6,7 @@
 
 #include "vigil/core/ergodic/coverage_statistics.hpp"
 #include "vigil/core/ergodic/kernel.hpp"
+#include "vigil/core/ergodic/look_ahead.hpp"
 #include "vigil/core/safety/filter.hpp"
 #include "vigil/swarm/command.hpp"
 #include "vigil/swarm/observation.hpp"
@@ -38,6 +39,9 @@ class SwarmState {
   void judge_drones(Snapshot& out) noexcept;
   void gather_active() noexcept;
   void cover(Snapshot& out) noexcept;
+  void measure_coverage(Snapshot& out) noexcept;
+  void go_down_the_gradient() noexcept;
+  void look_ahead() noexcept;
   void keep_safe(Snapshot& out) noexcept;
   void write_orders(Snapshot& out) noexcept;
   [[nodiscard]] safety::Body body_of(const DroneMemory& drone) const noexcept;
@@ -47,6 +51,7 @@ class SwarmState {
   ergodic::Basis basis_;
   ergodic::Kernel kernel_;
   ergodic::CoverageStatistics statistics_;
+  ergodic::LookAhead look_ahead_;
   safety::Filter filter_;
   CoverageTarget target_;
   double fade_delta_ = 0.0;
@@ -60,7 +65,9 @@ class SwarmState {
   std::vector<std::size_t> active_;
   std::vector<std::size_t> active_before_;
   std::vector<Vec2> active_positions_;
+  std::vector<ergodic::Departure> departures_;  ///< of the active drones
   std::vector<Vec2> slopes_;
+  std::vector<Vec2> active_u_;
   std::vector<safety::Body> bodies_;
   std::vector<Vec2> u_nom_;
   std::vector<Vec2> u_;

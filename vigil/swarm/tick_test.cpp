@@ -92,6 +92,26 @@ TEST(Tick, Covering_drones_bring_the_metric_down) {
   EXPECT_EQ(world.snapshot.active, 3U);
 }
 
+TEST(Tick, The_gradient_controller_brings_the_metric_down_too) {
+  SwarmParameters gradient = parameters(3);
+  gradient.controller = ergodic::ControllerKind::kGradient;
+  IdealWorld world(gradient, {{0.5, 0.5}, {1.5, 0.5}, {2.5, 0.5}});
+  world.step({set_target(target_around(world.state, {1.5, 2.0}))});
+  world.run(60.0);
+  EXPECT_LT(world.snapshot.metric_percent, 20.0);
+}
+
+TEST(Tick, New_targets_make_every_drone_decide_at_once) {
+  IdealWorld world(parameters(3), {{0.5, 0.5}, {1.5, 0.5}, {2.5, 0.5}});
+  const auto wanted = [&](std::size_t drone) { return world.snapshot.drones[drone].u_nom; };
+  world.step({set_target(target_around(world.state, {1.5, 2.0}))});
+  const std::array<Vec2, 3> before{wanted(0), wanted(1), wanted(2)};
+  world.step();
+  for (std::size_t drone = 0; drone < 3; ++drone) EXPECT_EQ(wanted(drone), before[drone]);
+  world.step({set_target(target_around(world.state, {0.5, 2.5}))});
+  for (std::size_t drone = 0; drone < 3; ++drone) EXPECT_NE(wanted(drone), before[drone]);
+}
+
 TEST(Tick, Without_targets_the_drones_hover_and_the_reason_is_given) {
   IdealWorld world(parameters(2), {{0.5, 0.5}, {2.5, 2.5}});
   world.run(1.0);

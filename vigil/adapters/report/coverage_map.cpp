@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "vigil/core/field/density.hpp"
+#include "vigil/runtime/mission_setup.hpp"
 
 namespace vigil::report {
 namespace {
@@ -148,7 +149,7 @@ CoverageMap coverage_map(const FlightData& data, const field::Importance& import
   map.cell_y_m = data.field.length_y / static_cast<double>(shape.ny);
 
   const std::size_t start = start_of_coverage(data);
-  const auto& memory_s = data.mission.control.memory_s;
+  const std::optional<double> memory_s = runtime::memory_s(data.mission);
   const ArrayXXd time = dwell(data, map, shape.nx, shape.ny, [&](std::size_t tick) {
     if (tick < start) return 0.0;
     const double age_s = data.end_s() - data.time_s(tick);

@@ -8,6 +8,7 @@
 #include "vigil/adapters/report/html.hpp"
 #include "vigil/adapters/report/page_style.hpp"
 #include "vigil/runtime/mission_description.hpp"
+#include "vigil/runtime/mission_setup.hpp"
 
 namespace vigil::report {
 namespace {
@@ -83,8 +84,8 @@ std::string accounting_section(const FlightData& data, const CoverageMap& map) {
   std::string text = "<section id=\"accounting\"><h2>How coverage was counted</h2>\n";
   for (const std::string& note : accounting_notes(data, map))
     text += fmt::format("<p>{}</p>\n", escaped_with_code(note));
-  if (data.mission.control.memory_s) {
-    text += fmt::format("<p>The past fades with a time constant of {:g} s.</p>\n", *data.mission.control.memory_s);
+  if (const auto memory_s = runtime::memory_s(data.mission)) {
+    text += fmt::format("<p>The past fades with a time constant of {:g} s.</p>\n", *memory_s);
   }
   return text + "</section>\n";
 }
