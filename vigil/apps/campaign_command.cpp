@@ -36,10 +36,9 @@ const std::string kFarewell;
 
 /// Finds out before anything is written whether the variations can be drawn at all.
 runtime::CampaignPlan plan_of(const CampaignOptions& options) {
-  std::vector<std::string> settings = options.settings;
-  if (options.seconds) settings.push_back(fmt::format("simulation.duration_s={}", *options.seconds));
   runtime::CampaignPlan plan;
-  plan.mission_yaml = runtime::mission_yaml(choose_mission(options.mission, settings));
+  plan.mission_yaml = runtime::mission_yaml(
+      choose_mission(options.mission, options.settings, {.seconds = options.seconds, .seed = std::nullopt}));
   for (const std::string& text : options.vary) plan.variations.push_back(runtime::parse_variation(text));
   plan.seed = options.seed;
   plan.runs = options.runs;

@@ -103,6 +103,61 @@ class CommandLine(unittest.TestCase):
         self.refused("check", self.out / "nowhere.yaml")
         self.assertFalse(self.out.exists())
 
+    def test_numbers_are_refused_as_written_in_the_name_of_their_option(self):
+        simulate = ("simulate", PAPER, "--out", self.out)
+        self.assertTrue(self.refused(*simulate, "--seed", "-1").startswith("vigil: --seed: simulation.seed = -1: "))
+        self.assertTrue(self.refused(*simulate, "--seconds", "1e-9").startswith("vigil: --seconds: "))
+        self.assertIn("1e-300: is shorter than one tick; must be in [0.02, 1000000] s",
+                      self.refused(*simulate, "--set", "simulation.duration_s=1e-300"))
+        self.assertIn("--seconds: ", self.refused(*simulate, "--seconds", "none"))
+        self.assertIn("given twice", self.refused(*simulate, "--seed", 1, "--set", "simulation.seed=2"))
+        self.assertIn("given twice", self.refused(*simulate, "--seconds", 1, "--set", "simulation.duration_s=2"))
+        campaign = ("campaign", PAPER, "--runs", 1, "--out", self.out)
+        self.assertIn("--seed", self.refused(*campaign, "--seed", "-1"))
+        self.assertIn("--seconds: ", self.refused(*campaign, "--seconds", "1e-9"))
+        self.assertFalse(self.out.exists())
+
+    def test_options_without_their_values_are_refused(self):
+        for option in ("--seed", "--seconds"):
+            self.assertIn(f"{option}: has no value", self.refused("simulate", PAPER, "--out", self.out, option, ""))
+        self.assertIn("--out", self.refused("simulate", PAPER, "--out", ""))
+        self.assertIn("--out", self.refused("campaign", PAPER, "--runs", 1, "--out", ""))
+        self.assertFalse(self.out.exists())
+
+    def test_a_path_with_control_characters_or_without_end_is_told_on_one_short_line(self):
+        file = self.out.with_name("file")
+        file.write_text("x")
+        strange = file / "a\nb\x1b[2J"
+        for message in (self.refused("simulate", PAPER, "--out", strange),
+                        self.refused("campaign", PAPER, "--runs", 1, "--out", strange)):
+            self.assertIn("a\\nb\\x1b[2J", message)
+        self.assertLess(len(self.refused("simulate", PAPER, "--out", file / ("x" * 100_000))), 500)
+
+    def test_output_that_nobody_gets_is_no_success(self):
+        commands = (("schema",), ("check", PAPER), ("check", PAPER, "--json"), ("--help",), ("--version",),
+                    ("simulate", PAPER, "--seconds", 1, "--json", "--out", self.out),
+                    ("simulate", PAPER, "--seconds", 1, "--out", self.out.with_name("other")))
+        for command in commands:
+            with self.subTest(command), open("/dev/full", "w") as full:
+                result = subprocess.run([VIGIL, *map(str, command)], stdout=full, stderr=subprocess.PIPE, text=True,
+                                        timeout=120)
+                self.assertEqual(result.returncode, 3, result.stderr)
+                self.assertEqual(len(result.stderr.strip().splitlines()), 1, result.stderr)
+                self.assertIn("standard output", result.stderr)
+        self.assertTrue((self.out / "summary.json").is_file())
+
+    def test_help_says_what_every_exit_means(self):
+        whole = run("--help").stdout
+        self.assertIn("./run simulate", whole)
+        for code in ("0 done", "1 a run", "2 bad", "3 a component", "130 interrupted"):
+            self.assertIn(code, whole)
+        for command in ("simulate", "campaign", "check", "report"):
+            text = run(command, "--help").stdout
+            self.assertIn("Exit codes: 0 done", text)
+            self.assertNotIn("Start with", text)
+            self.assertEqual("1 a run broke a rule" in text, command == "campaign")
+            self.assertEqual("130 interrupted" in text, command in ("simulate", "campaign"))
+
     def test_without_a_command_the_program_says_what_there_is(self):
         result = run()
         self.assertEqual(result.returncode, 2)

@@ -2,6 +2,7 @@
 #include <exception>
 #include <new>
 #include <string>
+#include <string_view>
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -31,16 +32,31 @@ void add_settings(CLI::App* command, std::vector<std::string>& settings) {
       ->take_all();
 }
 
+/// A footer of a command's help: what its exit tells, in the order of the codes.
+std::string exit_codes(std::string_view failed_check, bool can_be_interrupted) {
+  return fmt::format("Exit codes: 0 done, {}2 bad arguments or mission file, 3 a component is missing or failed{}.",
+                     failed_check, can_be_interrupted ? ", 130 interrupted: what was done is kept" : "");
+}
+
+CLI::Validator not_empty() {
+  return {[](const std::string& text) { return text.empty() ? std::string("has no value") : std::string(); }, ""};
+}
+
 CLI::App* add_simulate(CLI::App& program, SimulateOptions& options) {
   CLI::App* command = program.add_subcommand("simulate", "Fly a mission in the simulator, as fast as it can");
   command->add_option("MISSION", options.mission, "The mission file (YAML)")->required();
-  command->add_option("--out", options.out, "Directory for recording/ and summary.json; must not exist")->required();
-  command->add_option("--seconds", options.seconds, "How long to fly instead of what the mission says");
-  command->add_option("--seed", options.seed, "The seed of everything random instead of the mission's");
+  command->add_option("--out", options.out, "Directory for recording/ and summary.json; must not exist")
+      ->required()
+      ->check(not_empty());
+  command->add_option("--seconds", options.shorthands.seconds, "How long to fly instead of what the mission says")
+      ->type_name("NUMBER");
+  command->add_option("--seed", options.shorthands.seed, "The seed of everything random instead of the mission's")
+      ->type_name("NUMBER");
   command->add_option("--record-every", options.keep_every, "Keep every Nth tick in the recording")
       ->check(CLI::Range(1, 1'000'000));
   command->add_flag("--json", options.json, "Print summary.json instead of a text");
   add_settings(command, options.settings);
+  command->footer(exit_codes("", true));
   return command;
 }
 
@@ -52,9 +68,12 @@ CLI::App* add_campaign(CLI::App& program, CampaignOptions& options) {
   command
       ->add_option("--out", options.out,
                    "Directory for plan.json, runs.jsonl and summary.json; the same command goes on there")
-      ->required();
-  command->add_option("--seed", options.seed, "The seed of the campaign: which runs it has (default 1)");
-  command->add_option("--seconds", options.seconds, "How long to fly instead of what the mission says");
+      ->required()
+      ->check(not_empty());
+  command->add_option("--seed", options.seed, "The seed of the campaign: which runs it has (default 1)")
+      ->check(CLI::NonNegativeNumber);
+  command->add_option("--seconds", options.seconds, "How long to fly instead of what the mission says")
+      ->type_name("NUMBER");
   command
       ->add_option("--vary", options.vary,
                    "What differs from run to run beside the seed: starts, targets, faults[=N], key=a..b, key=a|b|c")
@@ -64,6 +83,7 @@ CLI::App* add_campaign(CLI::App& program, CampaignOptions& options) {
   command->add_flag("--json", options.json, "Print summary.json instead of a table");
   command->add_flag("--mpi", options.mpi, "Share the runs with the other processes that mpirun started");
   add_settings(command, options.settings);
+  command->footer(exit_codes("1 a run broke a rule, ", true));
   return command;
 }
 
@@ -72,12 +92,14 @@ CLI::App* add_check(CLI::App& program, CheckOptions& options) {
   command->add_option("MISSION", options.mission, "The mission file (YAML)")->required();
   command->add_flag("--json", options.json, "Print JSON instead of a text");
   add_settings(command, options.settings);
+  command->footer(exit_codes("", false));
   return command;
 }
 
 CLI::App* add_report(CLI::App& program, ReportArguments& arguments) {
   CLI::App* command = program.add_subcommand("report", "Draw the figures of a recording (SVG and PNG) and report.html");
   command->add_option("DIR", arguments.directory, "The directory that simulate wrote")->required();
+  command->footer(exit_codes("", false));
   return command;
 }
 
@@ -85,9 +107,6 @@ int run(int argc, char** argv) {
   CLI::App program("A drone swarm that persistently monitors what people point at.", "vigil");
   program.set_version_flag("--version", "vigil " VIGIL_VERSION);
   program.require_subcommand(0, 1);
-  program.footer(
-      "Exit codes: 0 done, 1 the check failed, 2 bad arguments or mission file, 3 a component is missing or failed.\n"
-      "Start with: vigil simulate missions/paper.yaml --out out/paper && vigil report out/paper");
   Arguments arguments;
   const CLI::App* simulate_command = add_simulate(program, arguments.simulate);
   const CLI::App* campaign_command = add_campaign(program, arguments.campaign);
@@ -95,6 +114,8 @@ int run(int argc, char** argv) {
   const CLI::App* report_command = add_report(program, arguments.report);
   const CLI::App* schema_command =
       program.add_subcommand("schema", "Print the JSON Schema of mission files, for editors");
+  program.footer(exit_codes("1 a run of a campaign broke a rule, ", true) +
+                 "\nStart with: ./run simulate missions/paper.yaml --out out/paper && ./run report out/paper");
   try {
     program.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
@@ -111,9 +132,18 @@ int run(int argc, char** argv) {
   return kBadInput;
 }
 
-int fail(ExitCode code, const std::string& line) {
-  fmt::print(stderr, "vigil: {}\n", line);
+int fail(ExitCode code, std::string_view line) {
+  constexpr std::size_t kMostBytes = 4000;
+  fmt::print(stderr, "vigil: {}\n", runtime::on_one_line(line, kMostBytes));
   return code;
+}
+
+/// Whoever reads standard output must learn that it is not whole, whatever became of the command.
+int after_output(int exit_code) {
+  const bool is_written = std::fflush(stdout) == 0 && std::ferror(stdout) == 0;
+  return is_written ? exit_code
+                    : fail(kComponentFailed,
+                           "standard output could not be written whole; make room where it goes, or send it elsewhere");
 }
 
 }  // namespace
@@ -122,7 +152,7 @@ int fail(ExitCode code, const std::string& line) {
 int main(int argc, char** argv) {
   using namespace vigil;
   try {
-    return apps::run(argc, argv);
+    return apps::after_output(apps::run(argc, argv));
   } catch (const apps::Failure& failure) {
     return apps::fail(failure.code(), failure.what());
   } catch (const runtime::MissionError& error) {

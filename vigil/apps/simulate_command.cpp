@@ -11,9 +11,9 @@
 #include "vigil/apps/failure.hpp"
 #include "vigil/apps/fleet_choice.hpp"
 #include "vigil/apps/interrupt.hpp"
-#include "vigil/apps/mission_choice.hpp"
 #include "vigil/apps/progress_bar.hpp"
 #include "vigil/apps/text_file.hpp"
+#include "vigil/runtime/mission_error.hpp"
 #include "vigil/runtime/mission_writer.hpp"
 #include "vigil/runtime/virtual_flight.hpp"
 
@@ -22,23 +22,22 @@ namespace {
 
 namespace fs = std::filesystem;
 
+/// The directory for a line of text, however it is called.
+std::string in_words(const fs::path& out) {
+  constexpr std::size_t kMostBytes = 300;
+  return runtime::on_one_line(out.string(), kMostBytes);
+}
+
 /// Creates the directory of results; refuses one that is there, so that no flight overwrites another.
 void create_results(const fs::path& out) {
   std::error_code error;
   if (fs::exists(fs::symlink_status(out, error)))
     throw Failure(kBadInput,
-                  fmt::format("--out {}: is there already; name a directory that is not, or remove it", out.string()));
+                  fmt::format("--out {}: is there already; name a directory that is not, or remove it", in_words(out)));
   fs::create_directories(out, error);
   if (error)
     throw Failure(kBadInput, fmt::format("--out {}: cannot be created ({}); name a place where you may write",
-                                         out.string(), error.message()));
-}
-
-std::vector<std::string> with_shorthands(const SimulateOptions& options) {
-  std::vector<std::string> settings = options.settings;
-  if (options.seconds) settings.push_back(fmt::format("simulation.duration_s={}", *options.seconds));
-  if (options.seed) settings.push_back(fmt::format("simulation.seed={}", *options.seed));
-  return settings;
+                                         in_words(out), error.message()));
 }
 
 std::chrono::nanoseconds now() { return std::chrono::steady_clock::now().time_since_epoch(); }
@@ -67,13 +66,13 @@ void print_for_people(const runtime::FlightSummary& summary, const fs::path& out
   fmt::print("  fastest            {:.3f} m/s\n", audit.max_speed_m_s);
   fmt::print("  violations         {} separation, {} wall, {} no-fly, {} speed (by ground truth)\n",
              audit.separation_violations, audit.wall_violations, audit.no_fly_violations, audit.speed_violations);
-  fmt::print("  written to         {}\n  figures            vigil report {}\n", out.string(), out.string());
+  fmt::print("  written to         {}\n  figures            vigil report {}\n", in_words(out), in_words(out));
 }
 
 }  // namespace
 
 int simulate(const SimulateOptions& options) {
-  const runtime::Mission mission = choose_mission(options.mission, with_shorthands(options));
+  const runtime::Mission mission = choose_mission(options.mission, options.settings, options.shorthands);
   create_results(options.out);
   catch_interrupts();
 
@@ -93,7 +92,7 @@ int simulate(const SimulateOptions& options) {
     print_for_people(summary, options.out);
   if (summary.complete) return kDone;
   fmt::print(stderr, "vigil: stopped at {:g} s of {:g} s; what was flown is in {}\n", summary.duration_s,
-             mission.simulation.duration_s, options.out.string());
+             mission.simulation.duration_s, in_words(options.out));
   return kInterrupted;
 }
 

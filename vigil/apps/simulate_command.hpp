@@ -2,17 +2,17 @@
 
 #include <cstdint>
 #include <filesystem>
-#include <optional>
 #include <string>
 #include <vector>
+
+#include "vigil/apps/mission_choice.hpp"
 
 namespace vigil::apps {
 
 struct SimulateOptions {
   std::filesystem::path mission;
   std::filesystem::path out;
-  std::optional<double> seconds;      ///< instead of the mission's simulation.duration_s
-  std::optional<std::uint64_t> seed;  ///< instead of the mission's simulation.seed
+  Shorthands shorthands;              ///< instead of what the mission says
   std::vector<std::string> settings;  ///< key=value
   std::uint64_t keep_every = 1;       ///< ticks, in the recording
   bool json = false;                  ///< the summary to standard output

@@ -196,6 +196,10 @@ void add_contradictions(std::vector<MalformedMission>& table) {
   add("a field like a ribbon", but("[4, 3]", "[400, 3]"), "field.size_m", "ratio of at most 50");
   add("a spread that no grid resolves", but("targets:", "targets:\n  sigma_min_m: 0.001"), "targets.sigma_min_m",
       "must be at least");
+  add("a spread wider than the field", but("targets:", "targets:\n  sigma_min_m: 4.5"), "targets.sigma_min_m",
+      "must be in [0.00390625, 4] m");
+  add("less than one tick", but("duration_s: 60", "duration_s: 1e-9"), "simulation.duration_s",
+      "= 1e-9: is shorter than one tick; must be in [0.02, 1000000] s");
   add("a target outside the field", but("[0.2, 1.1]", "[0.2, 1.6]"), "targets.clusters[0].points_m[1]",
       "is outside the field; must be inside the field of 4 m x 3 m");
   add("a target in a no-fly polygon", but("[0.2, 1.1]", "[-1.2, 0.6]"), "targets.clusters[0].points_m[1]",

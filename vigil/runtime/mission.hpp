@@ -50,6 +50,9 @@ struct TargetsSection {
   friend bool operator==(const TargetsSection&, const TargetsSection&) = default;
 };
 
+/// The vertices of all no-fly polygons together: the filter looks at every edge for every drone in every tick.
+inline constexpr std::size_t kMostNoFlyPoints = 1000;
+
 struct NoFlyEntry {
   std::string name;
   std::vector<Vec2> outline_m;  ///< world frame, a simple polygon
@@ -180,6 +183,8 @@ struct EventEntry {
 };
 
 enum class StartState : std::uint8_t { kFlying, kGrounded };
+
+inline constexpr double kLongestDurationS = 1e6;
 
 struct SimulationSection {
   double duration_s = 120.0;

@@ -36,6 +36,14 @@ void check_field(const Mission& mission, const MissionSource& source) {
                    .valid = fmt::format("must be at least {:.6g} m", longer / kMostCells),
                    .advice = "take a larger spread, or leave it out"});
   }
+  if (sigma_min_m(mission) > longer) {
+    source.refuse({.place = "",
+                   .key = "targets.sigma_min_m",
+                   .value = "",
+                   .problem = "spreads every target over more than the field",
+                   .valid = fmt::format("must be in [{:.6g}, {:.6g}] m", longer / kMostCells, longer),
+                   .advice = "take a smaller spread, or leave it out"});
+  }
 }
 
 void check_distances(const Mission& mission, const MissionSource& source) {
@@ -79,6 +87,18 @@ void check_lag(const Mission& mission, const MissionSource& source) {
   };
   if (mission.safety.lag_s > 0.0) refuse_for_paper("safety.lag_s");
   if (mission.safety.margin_m > 0.0) refuse_for_paper("safety.margin_m");
+}
+
+void check_duration(const Mission& mission, const MissionSource& source) {
+  constexpr double kRounding = 1e-9;
+  const double ticks = mission.simulation.duration_s * mission.control.rate_hz;
+  if (ticks >= 1.0 - kRounding) return;
+  source.refuse({.place = "",
+                 .key = "simulation.duration_s",
+                 .value = "",
+                 .problem = "is shorter than one tick",
+                 .valid = fmt::format("must be in [{:.6g}, {}] s", tick_s(mission), kLongestDurationS),
+                 .advice = "fly for longer, or raise control.rate_hz"});
 }
 
 void check_memory(const Mission& mission, const MissionSource& source) {
@@ -275,6 +295,7 @@ void check_numbers(const Mission& mission, const MissionSource& source) {
   check_lag(mission, source);
   check_ranges(mission, source);
   check_vehicle(mission, source);
+  check_duration(mission, source);
 }
 
 void check_drones(const Mission& mission, const MissionSource& source) {

@@ -43,7 +43,10 @@ void describe(DescriptionVisitor& visitor, Mission& mission) {
                   [&](DescriptionVisitor& v) { describe(v, mission.field); });
   visitor.section({.name = "targets", .meaning = "where the swarm should look; without any, drones hover"},
                   [&](DescriptionVisitor& v) { describe(v, mission.targets); });
-  visitor.list({.name = "no_fly", .meaning = "the polygons that no drone enters and where nothing is looked at"},
+  static_assert(kMostNoFlyPoints == 1000, "the sentence below says so");
+  visitor.list({.name = "no_fly",
+                .meaning = "the polygons that no drone enters and where nothing is looked at; they have at most 1000 "
+                           "vertices in all"},
                {0, 200}, sections_of(mission.no_fly));
   visitor.list({.name = "drones", .meaning = "the swarm, one entry a drone"}, {1, 100'000},
                sections_of(mission.drones));
@@ -81,7 +84,8 @@ void describe(DescriptionVisitor& visitor, TargetsSection& targets) {
   visitor.list({.name = "areas", .meaning = "the drawn areas to be watched evenly"}, {0, 200},
                sections_of(targets.areas));
   visitor.number({.name = "sigma_min_m",
-                  .meaning = "the least spread of a cluster, so that a single point is a proper Gaussian",
+                  .meaning = "the least spread of a cluster, so that a single point is a proper Gaussian; at most the "
+                             "field's longer side",
                   .unit = "m",
                   .default_text = "5 % of the field's shorter side"},
                  kLength, targets.sigma_min_m);
@@ -133,7 +137,7 @@ void describe(DescriptionVisitor& visitor, NoFlyEntry& no_fly) {
                   .meaning = "the vertices of a polygon that does not cross itself, world frame",
                   .unit = "m",
                   .is_required = true},
-                 kWorldCoordinate, {3, kMostVertices}, no_fly.outline_m);
+                 kWorldCoordinate, {3, kMostNoFlyPoints}, no_fly.outline_m);
 }
 
 void describe(DescriptionVisitor& visitor, DroneEntry& drone) {

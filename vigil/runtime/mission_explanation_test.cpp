@@ -74,6 +74,33 @@ TEST(MissionNotes, Positions_older_than_the_timeout_are_noted) {
   EXPECT_TRUE(any_note_says(mission, "every drone will count as lost"));
 }
 
+TEST(MissionNotes, Targets_in_a_slit_that_nothing_can_be_seen_through_are_noted) {
+  Mission mission = right();
+  mission.targets = {};
+  mission.targets.sigma_min_m = 0.05;
+  mission.targets.clusters.emplace_back();
+  mission.targets.clusters.front().name = "slit";
+  mission.targets.clusters.front().points_m = {Vec2(0.0, 0.6)};
+  EXPECT_FALSE(any_note_says(mission, "No target can be seen"));
+  mission.no_fly = {
+      {.name = "left", .outline_m = {Vec2(-1.0, 0.0), Vec2(-1e-9, 0.0), Vec2(-1e-9, 1.2), Vec2(-1.0, 1.2)}},
+      {.name = "right", .outline_m = {Vec2(1e-9, 0.0), Vec2(1.0, 0.0), Vec2(1.0, 1.2), Vec2(1e-9, 1.2)}}};
+  EXPECT_TRUE(any_note_says(mission, "No target can be seen"));
+}
+
+TEST(MissionNotes, A_pilot_who_flies_faster_than_the_speed_limit_is_noted) {
+  Mission mission = right();
+  EventEntry taken_over;
+  taken_over.at_s = 5.0;
+  taken_over.what = EventKind::kOverride;
+  taken_over.drone = "a";
+  taken_over.velocity_m_s = Vec2(0.18, 0.24);
+  mission.simulation.events = {taken_over};
+  EXPECT_FALSE(any_note_says(mission, "a pilot flies"));
+  mission.simulation.events.front().velocity_m_s = Vec2(0.3, 0.4);
+  EXPECT_TRUE(any_note_says(mission, "At 5 s a pilot flies a at 0.5 m/s, above control.speed_limit_m_s (0.3 m/s)"));
+}
+
 TEST(MissionNotes, Nothing_to_look_at_and_nobody_in_the_air_are_noted) {
   Mission mission = right();
   mission.targets = {};

@@ -125,11 +125,26 @@ TEST(Overrides, Are_refused_like_what_a_file_says_with_the_option_for_the_place)
   EXPECT_EQ(fault_of({{"drones[99999999999999999999].id", "c"}}).problem, "is not the path of a key");
 }
 
+TEST(Overrides, That_another_option_wrote_are_refused_in_its_name_as_written) {
+  const MissionFault negative = fault_of({{"simulation.seed", "-1", "--seed"}});
+  EXPECT_EQ(negative.place, "--seed");
+  EXPECT_EQ(negative.value, "-1");
+  EXPECT_EQ(fault_of({{"simulation.duration_s", "", "--seconds"}}).place, "--seconds");
+  EXPECT_EQ(fault_of({{"simulation.duration_s", "", "--seconds"}}).problem, "has no value");
+  EXPECT_EQ(fault_of({{"simulation.duration_s", "none", "--seconds"}}).value, "none");
+  EXPECT_EQ(fault_of({{"simulation.duration_s", "1e-9", "--seconds"}}).place, "--seconds");
+}
+
 TEST(Overrides, Are_taken_apart_at_the_first_equals_sign) {
   EXPECT_EQ(parse_override("name=a=b").key, "name");
   EXPECT_EQ(parse_override("name=a=b").value, "a=b");
   EXPECT_THROW(static_cast<void>(parse_override("name")), MissionError);
   EXPECT_THROW(static_cast<void>(parse_override("=1")), MissionError);
+}
+
+TEST(MissionFile, One_tick_is_the_shortest_mission) {
+  EXPECT_EQ(right_with({{"simulation.duration_s", "0.02"}}).simulation.duration_s, 0.02);
+  EXPECT_EQ(fault_of({{"simulation.duration_s", "0.0199"}}).problem, "is shorter than one tick");
 }
 
 TEST(Overrides, A_shorter_duration_drops_the_events_after_it) {

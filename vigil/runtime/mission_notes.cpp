@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "vigil/core/field/density.hpp"
 #include "vigil/runtime/mission_explanation.hpp"
 #include "vigil/runtime/mission_setup.hpp"
 
@@ -14,9 +15,15 @@ bool is_paper_barrier(const Mission& mission) { return mission.safety.barrier ==
 bool has_lag(const Mission& mission) { return mission.simulation.vehicle.model == VehicleModel::kFirstOrderLag; }
 
 void note_targets(const Mission& mission, Notes& notes) {
-  if (!importance(mission).has_targets()) {
+  const field::Importance map = importance(mission);
+  if (!map.has_targets()) {
     notes.emplace_back("There is nothing to look at: drones hover until a target is added.");
+    return;
   }
+  const field::Field field = monitored_field(mission);
+  if (field::rasterise(field, map, field::grid_shape(field, map, mission.control.basis_max_index))) return;
+  notes.emplace_back(
+      "No target can be seen: next to nothing of them is inside the field and outside no-fly polygons. Drones hover.");
 }
 
 void note_barrier(const Mission& mission, Notes& notes) {
@@ -86,6 +93,17 @@ void note_start(const Mission& mission, Notes& notes) {
   }
 }
 
+void note_overrides(const Mission& mission, Notes& notes) {
+  const double limit = mission.control.speed_limit_m_s;
+  for (const EventEntry& event : mission.simulation.events) {
+    if (event.what != EventKind::kOverride || event.velocity_m_s.norm() <= limit * (1.0 + 1e-9)) continue;
+    notes.push_back(
+        fmt::format("At {} s a pilot flies {} at {:.3g} m/s, above control.speed_limit_m_s ({} m/s): the others' "
+                    "separation from it is not guaranteed, and the flight counts it as too fast.",
+                    event.at_s, event.drone, event.velocity_m_s.norm(), limit));
+  }
+}
+
 }  // namespace
 
 std::vector<std::string> notes_on(const Mission& mission) {
@@ -96,6 +114,7 @@ std::vector<std::string> notes_on(const Mission& mission) {
   note_accounting(mission, notes);
   note_health(mission, notes);
   note_start(mission, notes);
+  note_overrides(mission, notes);
   return notes;
 }
 

@@ -65,21 +65,34 @@ void mark_as_override(YamlNode& node, int number) {
   }
 }
 
-[[noreturn]] void refuse_override(const std::string& key, const std::string& value, std::string problem,
-                                  std::string valid) {
-  throw MissionError({.place = "--set " + key,
+std::string place_of_override(const Override& change) {
+  return change.option.empty() ? "--set " + change.key : std::string(change.option);
+}
+
+[[noreturn]] void refuse_override(const Override& change, std::string problem, std::string valid) {
+  throw MissionError({.place = place_of_override(change),
                       .key = "",
-                      .value = value,
+                      .value = change.value,
                       .problem = std::move(problem),
                       .valid = std::move(valid),
                       .advice = "write for example --set safety.separation_m=0.3 or --set drones[0].start_m=[1,2]"});
+}
+
+[[noreturn]] void refuse_without_value(const Override& change) {
+  if (change.option.empty()) refuse_override(change, "has no value", "must be key=value");
+  throw MissionError({.place = place_of_override(change),
+                      .key = "",
+                      .value = "",
+                      .problem = "has no value",
+                      .valid = "must be followed by a number",
+                      .advice = "leave it out to take what the mission says"});
 }
 
 /// Where an override goes: the node at the path, made where it is new.
 YamlNode& node_for(YamlNode& from, const Step& step, const Override& change, int number) {
   if (step.index) {
     if (from.kind != YamlNode::Kind::kList || *step.index >= from.items.size()) {
-      refuse_override(change.key, change.value, fmt::format("has no entry [{}]", *step.index),
+      refuse_override(change, fmt::format("has no entry [{}]", *step.index),
                       fmt::format("must be an entry of the list, which has {} (counted from 0)", from.items.size()));
     }
     return from.items[*step.index];
@@ -90,7 +103,7 @@ YamlNode& node_for(YamlNode& from, const Step& step, const Override& change, int
     from.override_number = number;
   }
   if (from.kind != YamlNode::Kind::kMap) {
-    refuse_override(change.key, change.value, fmt::format("looks for `{}` in what is no section", step.key),
+    refuse_override(change, fmt::format("looks for `{}` in what is no section", step.key),
                     "must be a path of keys that docs/mission-file.md lists");
   }
   if (YamlNode* found = from.find(step.key)) return *found;
@@ -117,7 +130,7 @@ std::string as_written_list(const YamlNode& node) {
 Override parse_override(std::string_view text) {
   const std::size_t equals = text.find('=');
   if (equals == std::string_view::npos || equals == 0) {
-    refuse_override(std::string(text), "", "has no key or no `=`", "must be key=value");
+    refuse_override({.key = std::string(text), .value = ""}, "has no key or no `=`", "must be key=value");
   }
   return {.key = std::string(text.substr(0, equals)), .value = std::string(text.substr(equals + 1))};
 }
@@ -128,7 +141,7 @@ MissionSource::MissionSource(std::string_view text, std::string name, std::span<
     : name_(std::move(name)), root_(parse_yaml(text, name_)) {
   int number = 0;
   for (const Override& change : overrides) {
-    override_keys_.push_back(change.key);
+    override_places_.push_back(place_of_override(change));
     apply(change, ++number);
   }
 }
@@ -137,7 +150,7 @@ void MissionSource::apply(const Override& change, int number) {
   require_plain_text(change.key, "--set");
   const std::vector<Step> steps = steps_of(change.key);
   if (steps.empty()) {
-    refuse_override(change.key, change.value, "is not the path of a key", "must be keys joined by `.` and `[n]`");
+    refuse_override(change, "is not the path of a key", "must be keys joined by `.` and `[n]`");
   }
   YamlNode* node = &root_;
   YamlNode* parent = nullptr;
@@ -145,9 +158,9 @@ void MissionSource::apply(const Override& change, int number) {
     parent = node;
     node = &node_for(*node, step, change, number);
   }
-  if (change.value != "none") {
-    if (change.value.empty()) refuse_override(change.key, "", "has no value", "must be key=value");
-    *node = parse_yaml(change.value, "--set " + change.key);
+  if (change.value != "none" || !change.option.empty()) {
+    if (change.value.empty()) refuse_without_value(change);
+    *node = parse_yaml(change.value, place_of_override(change));
   } else if (steps.back().index) {
     parent->items.erase(parent->items.begin() + static_cast<std::ptrdiff_t>(*steps.back().index));
     return;
@@ -159,7 +172,7 @@ void MissionSource::apply(const Override& change, int number) {
 }
 
 std::string MissionSource::place_of(const YamlNode& node) const {
-  if (node.override_number > 0) return "--set " + override_keys_[static_cast<std::size_t>(node.override_number) - 1];
+  if (node.override_number > 0) return override_places_[static_cast<std::size_t>(node.override_number) - 1];
   return node.line > 0 ? fmt::format("{}:{}:{}", name_, node.line, node.column) : name_;
 }
 

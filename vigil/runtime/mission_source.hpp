@@ -17,6 +17,7 @@ namespace vigil::runtime {
 struct Override {
   std::string key;
   std::string value;
+  std::string_view option = "";  ///< a literal such as "--seed", for messages; its value is never taken for `none`
 };
 
 /// "key=value" taken apart at the first `=`. Throws MissionError.
@@ -31,7 +32,7 @@ class MissionSource {
   MissionSource(std::string_view text, std::string name, std::span<const Override> overrides);
 
   [[nodiscard]] const YamlNode& root() const { return root_; }
-  /// "file:line:column", or "--set key" for what an override wrote.
+  /// "file:line:column"; for what an override wrote its option, or "--set key".
   [[nodiscard]] std::string place_of(const YamlNode& node) const;
   /// The node at a key path; null where nothing is written there.
   [[nodiscard]] const YamlNode* find(std::string_view key_path) const;
@@ -46,7 +47,7 @@ class MissionSource {
   void apply(const Override& change, int number);
 
   std::string name_;
-  std::vector<std::string> override_keys_;
+  std::vector<std::string> override_places_;
   YamlNode root_;
 };
 

@@ -7,12 +7,12 @@
 
 #include "vigil/runtime/mission_checks.hpp"
 #include "vigil/runtime/mission_setup.hpp"
+#include "vigil/swarm/command.hpp"
 
 namespace vigil::runtime {
 namespace {
 
-/// The filter looks at every no-fly edge for every drone in every tick.
-constexpr std::size_t kMostNoFlyEdges = 1000;
+static_assert(kMostNoFlyPoints <= swarm::kMaxNoFlyEdges, "an intent must take every mission's polygons");
 /// Points a side with which an area is probed.
 constexpr int kProbes = 24;
 
@@ -128,12 +128,12 @@ void check_no_fly(const Mission& mission, const MissionSource& source, const NoF
     }
     edges += no_fly.polygons[i].vertices.size();
   }
-  if (edges > kMostNoFlyEdges) {
+  if (edges > kMostNoFlyPoints) {
     source.refuse({.place = "",
                    .key = "no_fly",
                    .value = "",
                    .problem = fmt::format("has {} vertices", edges),
-                   .valid = fmt::format("must have at most {} in all", kMostNoFlyEdges),
+                   .valid = fmt::format("must have at most {} in all", kMostNoFlyPoints),
                    .advice = "draw simpler outlines"});
   }
 }

@@ -109,8 +109,8 @@ void describe_particulars(DescriptionVisitor& visitor, EventEntry& event) {
 }  // namespace
 
 void describe(DescriptionVisitor& visitor, SimulationSection& simulation) {
-  visitor.number({.name = "duration_s", .meaning = "the time that is simulated", .unit = "s"}, {0.0, 1e6, false},
-                 simulation.duration_s);
+  visitor.number({.name = "duration_s", .meaning = "the time that is simulated, at least one tick", .unit = "s"},
+                 {0.0, kLongestDurationS, false}, simulation.duration_s);
   visitor.whole_number({.name = "seed", .meaning = "the seed of everything random; same seed, same bytes"},
                        {0, std::int64_t{1} << 53U}, simulation.seed);
   visitor.choice({.name = "start", .meaning = "how drones are found at the start"}, kStartState, simulation.start);
