@@ -42,6 +42,14 @@ CLI::Validator not_empty() {
   return {[](const std::string& text) { return text.empty() ? std::string("has no value") : std::string(); }, ""};
 }
 
+/// Without it, -1 would be taken for the highest of all seeds.
+CLI::Validator not_negative() {
+  return {[](const std::string& text) {
+            return text.starts_with('-') ? text + " is below 0; give a whole number from 0 on" : std::string();
+          },
+          ""};
+}
+
 CLI::App* add_simulate(CLI::App& program, SimulateOptions& options) {
   CLI::App* command = program.add_subcommand("simulate", "Fly a mission in the simulator, as fast as it can");
   command->add_option("MISSION", options.mission, "The mission file (YAML)")->required();
@@ -71,7 +79,7 @@ CLI::App* add_campaign(CLI::App& program, CampaignOptions& options) {
       ->required()
       ->check(not_empty());
   command->add_option("--seed", options.seed, "The seed of the campaign: which runs it has (default 1)")
-      ->check(CLI::NonNegativeNumber);
+      ->check(not_negative());
   command->add_option("--seconds", options.seconds, "How long to fly instead of what the mission says")
       ->type_name("NUMBER");
   command
