@@ -11,7 +11,7 @@ namespace {
 
 constexpr double kRounding = 1e-9;  // of positions and velocities: no violation
 constexpr double kNearlyZeroPercent = 5.0;
-constexpr double kLeastOverlap = 0.8;
+constexpr double kLeastOverlap = 0.75;
 constexpr double kLeastAttention = 0.7;  // of what a target, or all of them, asked for
 constexpr double kLeastActivity = 0.5;   // of the mean speed before a loss
 
