@@ -143,7 +143,8 @@ ArrayXXd CoverageMap::uniform() const {
 
 CoverageMap coverage_map(const FlightData& data, const field::Importance& importance) {
   CoverageMap map;
-  map.smoothing_m = 0.5 * importance.sigma_min_m;
+  // Smoothing beyond the field's size is uniform already, and its kernel would only take longer and longer.
+  map.smoothing_m = std::min(0.5 * importance.sigma_min_m, std::max(data.field.length_x, data.field.length_y));
   const field::GridShape shape = shape_for(data.field, importance.sigma_min_m);
   map.cell_x_m = data.field.length_x / static_cast<double>(shape.nx);
   map.cell_y_m = data.field.length_y / static_cast<double>(shape.ny);

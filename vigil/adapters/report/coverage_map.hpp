@@ -22,7 +22,7 @@ struct CoverageMap {
   Eigen::ArrayXXd wanted;  ///< the importance map at the end, 1/m^2; empty where there are no targets
   Eigen::ArrayXXd flown;   ///< the active drones' time, smoothed, 1/m^2; zero where no drone was ever active
   Eigen::ArrayXXd wanted_smoothed;
-  double smoothing_m = 0.0;  ///< sigma of the smoothing
+  double smoothing_m = 0.0;  ///< sigma of the smoothing, at most the field's longer side
   double cell_x_m = 0.0;
   double cell_y_m = 0.0;
   std::vector<AttentionShare> shares;  ///< of the targets' regions; the last one is all the rest of the field

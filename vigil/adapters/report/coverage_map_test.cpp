@@ -94,6 +94,17 @@ TEST(CoverageMap, The_past_fades_as_the_mission_says) {
   EXPECT_NEAR(flown.map().shares[1].achieved, 1.0 - std::exp(-2.0), 0.02);
 }
 
+TEST(CoverageMap, Smoothing_goes_no_farther_than_the_field) {
+  Flown flown;
+  flown.flight = sample_flight({.duration_s = 1.0});
+  field::Importance importance = runtime::importance(flown.mission);
+  importance.sigma_min_m = 1000.0;
+  const CoverageMap map = coverage_map(prepare(flown.flight, flown.mission), importance);
+  EXPECT_EQ(map.smoothing_m, 3.0);
+  EXPECT_NEAR(integral(map, map.flown), 1.0, 1e-9);
+  EXPECT_GT(map.overlap(map.flown, map.uniform()), 0.999);
+}
+
 TEST(CoverageMap, Without_targets_there_is_no_map_and_no_share) {
   Flown flown;
   flown.mission.targets.clusters.clear();

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "vigil/runtime/flight_audit.hpp"
+
 namespace vigil::report {
 namespace {
 
@@ -58,6 +60,13 @@ std::vector<NearestDistances> nearest_distances(const FlightData& data) {
   return out;
 }
 
+bool is_down(const FlightData& data, std::size_t tick, std::size_t drone) {
+  const double landed_m = runtime::AuditLimits{}.landed_height_m;
+  const std::size_t row = data.flight.row(tick, drone);
+  const double height_m = data.has_truth ? data.flight.rows.true_height_m[row] : data.flight.rows.height_m[row];
+  return data.flight.rows.mode[row] == swarm::VehicleMode::kGrounded || height_m <= landed_m;
+}
+
 ClosestToLost closest_to_lost(const FlightData& data) {
   ClosestToLost closest;
   std::vector<bool> was_active(data.drones(), false);
@@ -65,7 +74,7 @@ ClosestToLost closest_to_lost(const FlightData& data) {
   for (std::size_t tick = 0; tick < data.ticks(); tick += stride) {
     for (std::size_t i = 0; i < data.drones(); ++i) {
       if (data.flight.is_active(tick, i)) was_active[i] = true;
-      if (data.flight.is_active(tick, i) || !was_active[i]) continue;
+      if (data.flight.is_active(tick, i) || !was_active[i] || !is_down(data, tick, i)) continue;
       for (std::size_t j = 0; j < data.drones(); ++j) {
         if (!data.flight.is_active(tick, j)) continue;
         const double d = distance_m(data, tick, i, j);

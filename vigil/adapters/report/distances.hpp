@@ -21,7 +21,12 @@ struct NearestDistances {
 /// left out.
 [[nodiscard]] std::vector<NearestDistances> nearest_distances(const FlightData& data);
 
-/// The closest that an active drone came to one that had been active and no longer was.
+/// Whether a drone is on the ground at a tick: it says so, or it is lower than what counts as landed. Ground truth
+/// where there is any, else what was known.
+[[nodiscard]] bool is_down(const FlightData& data, std::size_t tick, std::size_t drone);
+
+/// The closest that an active drone came to one that had been active and now lies on the ground. One that is still in
+/// the air is none of these: whoever comes close to it is in danger.
 struct ClosestToLost {
   double distance_m = std::numeric_limits<double>::infinity();
   std::size_t tick = 0;

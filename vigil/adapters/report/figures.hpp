@@ -26,4 +26,9 @@ namespace vigil::report {
 /// Fig. 7 and Fig. 5 show only the last part of each drone's way where there are very many.
 [[nodiscard]] bool shows_whole_trajectories(const FlightData& data);
 
+/// Fig. 6 has a panel for each drone, with the times shaded at which it is not active.
+[[nodiscard]] bool shows_each_input(const FlightData& data);
+/// Fig. 8 has a panel for each pair, with a pale line where one of the two is not active.
+[[nodiscard]] bool shows_each_pair(const FlightData& data);
+
 }  // namespace vigil::report

@@ -16,11 +16,18 @@ enum class Verdict {
   kNotTested  ///< nothing in this flight could show it
 };
 
-/// One claim of the paper's text, held against one recording.
+/// Whose words a claim is.
+enum class Source {
+  kPaper,
+  kMission  ///< the mission asks for it, or safety does; the paper does not speak of it
+};
+
+/// One claim, held against one recording.
 struct Finding {
   std::string claim;     ///< in our own words
   std::string measured;  ///< in this recording's numbers, with the bound that decides
   Verdict verdict = Verdict::kNotTested;
+  Source source = Source::kPaper;
 };
 
 /// Fig. 4: the metric goes to (nearly) zero, also after a drone is lost.
@@ -31,7 +38,7 @@ struct Finding {
 [[nodiscard]] std::vector<Finding> input_findings(const FlightData& data);
 /// Fig. 7: the swarm goes where the targets are and keeps away from the border.
 [[nodiscard]] std::vector<Finding> snapshot_findings(const FlightData& data, const CoverageMap& map);
-/// Fig. 8: active drones keep R_s; lost ones may be passed closer.
+/// Fig. 8: active drones keep R_s, and so must all that are in the air; lost ones that are down may be passed closer.
 [[nodiscard]] std::vector<Finding> distance_findings(const FlightData& data, const ClosestToLost& closest);
 
 /// Which accounting was used, what it means and, for (14) as printed, what it did here. One paragraph each.

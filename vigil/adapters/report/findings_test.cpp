@@ -114,6 +114,28 @@ TEST(DistanceFindings, Passing_a_landed_drone_closer_than_the_safety_distance_is
   EXPECT_TRUE(says(finding, "cf1 to cf2, 0.0500 m at 40 s")) << finding.measured;
 }
 
+TEST(DistanceFindings, Coming_near_a_lost_drone_that_is_still_in_the_air_is_never_praised) {
+  Case c;
+  for (double& height : c.flight.rows.true_height_m) height = 0.5;
+  c.flight.rows.true_position_m[c.flight.row(400, 0)] =
+      c.flight.rows.true_position_m[c.flight.row(400, 1)] + Vec2(0.01, 0.0);
+  c.flight.ticks.clearances[400].airborne_pair_m = 0.01;
+  const std::vector<Finding> findings = distance_findings(c.data(), closest_to_lost(c.data()));
+  EXPECT_EQ(findings[0].verdict, Verdict::kHolds);  // of active drones
+  EXPECT_EQ(findings[1].verdict, Verdict::kNotTested);
+  EXPECT_EQ(findings[2].verdict, Verdict::kDiffers);
+  EXPECT_TRUE(says(findings[2], "0.0100 m at 40 s")) << findings[2].measured;
+}
+
+TEST(DistanceFindings, A_lost_drone_is_down_by_what_was_known_where_there_is_no_truth) {
+  Case c;
+  for (Vec2& place : c.flight.rows.true_position_m) place = Vec2::Constant(std::nan(""));
+  c.flight.rows.position_m[c.flight.row(400, 0)] = c.flight.rows.position_m[c.flight.row(400, 1)] + Vec2(0.05, 0.0);
+  EXPECT_EQ(distance_findings(c.data(), closest_to_lost(c.data()))[1].verdict, Verdict::kNotTested);
+  c.flight.rows.height_m[c.flight.row(400, 1)] = 0.02;
+  EXPECT_EQ(distance_findings(c.data(), closest_to_lost(c.data()))[1].verdict, Verdict::kHolds);
+}
+
 TEST(DistanceFindings, Without_a_lost_drone_nothing_is_said_of_lost_drones) {
   const Case c({.landing_s = 1e9});
   EXPECT_EQ(distance_findings(c.data(), closest_to_lost(c.data()))[1].verdict, Verdict::kNotTested);

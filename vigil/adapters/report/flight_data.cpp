@@ -46,6 +46,14 @@ std::vector<ActiveChange> changes_of(const RecordedFlight& flight) {
   return changes;
 }
 
+/// None where there is no such cluster or area.
+template <class Entry>
+const Entry* with_name(const std::vector<Entry>& entries, const std::string& name) {
+  const auto found =
+      std::find_if(entries.begin(), entries.end(), [&](const Entry& entry) { return entry.name == name; });
+  return found == entries.end() ? nullptr : &*found;
+}
+
 std::string reason(swarm::Activity activity) {
   switch (activity) {
     case swarm::Activity::kLanding:
@@ -99,13 +107,18 @@ runtime::Mission mission_at(double time_s, const RecordedFlight& flight, runtime
                                       [](double time, const auto& list) { return time < list.time_s; });
   if (after == flight.targets.begin()) return mission;
   const runtime::RecordedTargets& list = *std::prev(after);
-  const std::vector<runtime::AreaEntry> described = mission.targets.areas;
+  const runtime::TargetsSection described = mission.targets;
   mission.targets.clusters = list.clusters;
   mission.targets.areas = list.areas;
+  for (runtime::ClusterEntry& cluster : mission.targets.clusters) {
+    const auto* same = with_name(described.clusters, cluster.name);
+    if (same != nullptr) cluster.revisit_s = same->revisit_s;
+  }
   for (runtime::AreaEntry& area : mission.targets.areas) {
-    const auto same =
-        std::find_if(described.begin(), described.end(), [&](const auto& a) { return a.name == area.name; });
-    if (same != described.end()) area.soft_edge_m = same->soft_edge_m;
+    const auto* same = with_name(described.areas, area.name);
+    if (same == nullptr) continue;
+    area.soft_edge_m = same->soft_edge_m;
+    area.revisit_s = same->revisit_s;
   }
   return mission;
 }

@@ -36,17 +36,23 @@ std::string finding_item(const Finding& finding) {
                      escaped(finding.claim), escaped(finding.measured));
 }
 
-std::string figure_section(const PageFigure& figure) {
+std::string finding_list(const std::vector<Finding>& findings, Source source, const char* heading) {
   std::string items;
-  for (const Finding& finding : figure.findings) items += finding_item(finding);
+  for (const Finding& finding : findings)
+    if (finding.source == source) items += finding_item(finding);
+  if (items.empty()) return "";
+  return fmt::format("<p class=\"note\">{}</p><ul class=\"findings\">\n{}</ul>", heading, items);
+}
+
+std::string figure_section(const PageFigure& figure) {
   return fmt::format(
       "<section id=\"{0}\"><h2>{1}</h2><div class=\"figure\"><div><div class=\"scroll\">{2}</div><p "
       "class=\"note\">{3}</p><p class=\"links\"><a "
-      "href=\"figures/{0}.svg\">SVG</a> &middot; <a href=\"figures/{0}.png\">PNG</a></p></div><div><p "
-      "class=\"note\">What the paper says, "
-      "and this recording</p><ul class=\"findings\">\n{4}</ul></div></div></section>\n",
+      "href=\"figures/{0}.svg\">SVG</a> &middot; <a "
+      "href=\"figures/{0}.png\">PNG</a></p></div><div>{4}{5}</div></div></section>\n",
       figure.file, escaped(figure.title), inline_svg(figure.svg, figure.file + "-", figure.title), escaped(figure.note),
-      items);
+      finding_list(figure.findings, Source::kPaper, "What the paper says, and this recording"),
+      finding_list(figure.findings, Source::kMission, "What the mission asks for, and this recording"));
 }
 
 std::string header(const FlightData& data) {
@@ -58,21 +64,24 @@ std::string header(const FlightData& data) {
       data.end_s() - data.time_s(0), escaped(runtime::name_of(mission.control.accounting)));
 }
 
-std::string tally(const std::vector<PageFigure>& figures) {
+std::string tally(const std::vector<Finding>& findings, Source source, const char* what) {
   std::size_t holds = 0;
   std::size_t tested = 0;
-  for (const PageFigure& figure : figures) {
-    for (const Finding& finding : figure.findings) {
-      holds += finding.verdict == Verdict::kHolds ? 1 : 0;
-      tested += finding.verdict == Verdict::kNotTested ? 0 : 1;
-    }
+  for (const Finding& finding : findings) {
+    if (finding.source != source || finding.verdict == Verdict::kNotTested) continue;
+    holds += finding.verdict == Verdict::kHolds ? 1 : 0;
+    ++tested;
   }
-  return fmt::format("<div class=\"tile\"><b>{} of {}</b><span>claims of the paper that hold here</span></div>\n",
-                     holds, tested);
+  return tested == 0 ? ""
+                     : fmt::format("<div class=\"tile\"><b>{} of {}</b><span>{}</span></div>\n", holds, tested, what);
 }
 
 std::string tiles(const SummaryFacts& facts, const std::vector<PageFigure>& figures) {
-  std::string text = "<div class=\"tiles\">\n" + tally(figures);
+  std::vector<Finding> findings = facts.deadlines;
+  for (const PageFigure& figure : figures)
+    findings.insert(findings.end(), figure.findings.begin(), figure.findings.end());
+  std::string text = "<div class=\"tiles\">\n" + tally(findings, Source::kPaper, "claims of the paper that hold here") +
+                     tally(findings, Source::kMission, "demands of the mission that hold here");
   for (const SummaryFacts::Tile& tile : facts.tiles) {
     text +=
         fmt::format("<div class=\"tile\"><b>{}</b><span>{}</span></div>\n", escaped(tile.value), escaped(tile.what));
@@ -124,6 +133,13 @@ std::string table_section(const char* id, const char* title, const std::vector<s
   return fmt::format("<section id=\"{}\"><h2>{}</h2>{}</section>\n", id, title, table(rows));
 }
 
+std::string deadline_section(const SummaryFacts& facts) {
+  if (facts.deadlines.empty()) return "";
+  return "<section id=\"deadlines\"><h2>Deadlines</h2>" +
+         finding_list(facts.deadlines, Source::kMission, "How long the mission lets a part of a target go unseen") +
+         "</section>\n";
+}
+
 std::string warnings(const SummaryFacts& facts) {
   std::string text;
   for (const std::string& warning : facts.warnings)
@@ -143,14 +159,13 @@ std::string page(const FlightData& data, const CoverageMap& map, const SummaryFa
   text += header(data) + warnings(facts) + tiles(facts, figures);
   for (const PageFigure& figure : figures) text += figure_section(figure);
   text += accounting_section(data, map);
-  text += "<div class=\"columns\">\n" + attention_section(map) + table_section("safety", "Safety", facts.safety) +
-          table_section("coverage", "Coverage", facts.coverage) + table_section("timing", "Timing", facts.timing) +
-          "</div>\n";
+  text += "<div class=\"columns\">\n" + attention_section(map) + deadline_section(facts) +
+          table_section("safety", "Safety", facts.safety) + table_section("coverage", "Coverage", facts.coverage) +
+          table_section("timing", "Timing", facts.timing) + "</div>\n";
   text += events_section(data);
   text +=
-      "<footer>Maps are in the field's own frame: metres from its corner. Claims are the paper's in other words, each "
-      "held "
-      "against this recording alone.</footer>\n</main></body></html>\n";
+      "<footer>Maps are in the field's own frame: metres from its corner. What the paper says stands here in other "
+      "words; each claim and each demand is held against this recording alone.</footer>\n</main></body></html>\n";
   return text;
 }
 

@@ -1,5 +1,7 @@
 #include "vigil/adapters/report/page_figures.hpp"
 
+#include <algorithm>
+
 #include <fmt/format.h>
 
 #include "vigil/adapters/report/distances.hpp"
@@ -13,39 +15,61 @@ const char* path_note(const FlightData& data) {
   return shows_whole_trajectories(data) ? "Greens: each drone's way." : "Greens: the last part of each drone's way.";
 }
 
+/// Whether some drone is not active at some kept tick.
+bool has_inactive(const FlightData& data) {
+  return std::any_of(data.flight.rows.activity.begin(), data.flight.rows.activity.end(),
+                     [](swarm::Activity activity) { return activity != swarm::Activity::kActive; });
+}
+
+std::string input_note(const FlightData& data) {
+  const bool has_grey = shows_each_input(data) && has_inactive(data);
+  return std::string(has_grey ? "Grey: the drone is not active. " : "") + "Dashed: the velocity limit.";
+}
+
+/// Of the three maps.
+bool has_crosses(const FlightData& data) {
+  const std::vector<double> times = snapshot_times(data);
+  return std::any_of(times.begin(), times.end(),
+                     [&](double time_s) { return data.flight.ticks.active[data.tick_at(time_s)] < data.drones(); });
+}
+
+std::string snapshot_note(const FlightData& data) {
+  return fmt::format("Red: the importance map of that time. {} Dots: active drones{}.", path_note(data),
+                     has_crosses(data) ? "; crosses: drones that are not active" : "");
+}
+
+std::string distance_note(const FlightData& data) {
+  const bool has_pale = shows_each_pair(data) && has_inactive(data);
+  return std::string("Dashed: R_s.") + (has_pale ? " Pale: one of the two is not active." : "");
+}
+
 }  // namespace
 
 std::vector<PageFigure> page_figures(const FlightData& data, const CoverageMap& map) {
-  return {
-      {"fig4_metric",
-       "Fig. 4: the metric in percent of its first value",
-       "The same curve twice, so that its small end can be read.",
-       {},
-       metric_findings(data)},
-      {"fig5_density",
-       "Fig. 5: where the swarm should be, and where it was",
-       fmt::format("Left: the importance map at the end, with targets (circles). {} Right: the active drones' "
-                   "time, smoothed with "
-                   "sigma = {:.3g} m. One scale for both.",
-                   path_note(data), map.smoothing_m),
-       {},
-       density_findings(map)},
-      {"fig6_inputs",
-       "Fig. 6: control inputs",
-       "Grey: the drone is not active. Dashed: the velocity limit.",
-       {},
-       input_findings(data)},
-      {"fig7_snapshots",
-       "Fig. 7: trajectories up to three times",
-       fmt::format("Red: the importance map of that time. {} Dots: active drones; crosses: drones that are not active.",
-                   path_note(data)),
-       {},
-       snapshot_findings(data, map)},
-      {"fig8_distances",
-       "Fig. 8: distances between the drones",
-       "Dashed: R_s. Pale: one of the two is not active.",
-       {},
-       distance_findings(data, closest_to_lost(data))}};
+  return {{"fig4_metric",
+           "Fig. 4: the metric in percent of its first value",
+           "The same curve twice, so that its small end can be read.",
+           {},
+           metric_findings(data)},
+          {"fig5_density",
+           "Fig. 5: where the swarm should be, and where it was",
+           fmt::format("Left: the importance map at the end, with targets (circles). {} Right: the active drones' "
+                       "time, smoothed with "
+                       "sigma = {:.3g} m. One scale for both.",
+                       path_note(data), map.smoothing_m),
+           {},
+           density_findings(map)},
+          {"fig6_inputs", "Fig. 6: control inputs", input_note(data), {}, input_findings(data)},
+          {"fig7_snapshots",
+           "Fig. 7: trajectories up to three times",
+           snapshot_note(data),
+           {},
+           snapshot_findings(data, map)},
+          {"fig8_distances",
+           "Fig. 8: distances between the drones",
+           distance_note(data),
+           {},
+           distance_findings(data, closest_to_lost(data))}};
 }
 
 }  // namespace vigil::report

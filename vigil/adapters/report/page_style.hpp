@@ -37,13 +37,15 @@ a { color: var(--accent); }
 .nottested { color: var(--none); background: var(--none-bg); }
 .warning { background: var(--warn-bg); color: var(--warn); border-color: transparent; }
 .columns { display: grid; gap: 18px; grid-template-columns: repeat(auto-fit, minmax(min(100%, 420px), 1fr)); align-items: start; }
-.scroll { overflow-x: auto; }
+.scroll { overflow-x: auto; max-width: 100%; }
+li, p, h1 { overflow-wrap: anywhere; }
+.figure > div, .columns > section { min-width: 0; }
 table { border-collapse: collapse; width: 100%; font-size: 0.92rem; font-variant-numeric: tabular-nums; }
 th, td { text-align: left; padding: 6px 14px 6px 0; border-bottom: 1px solid var(--line); vertical-align: top; }
 th { color: var(--soft); font-weight: 600; }
 code { font-size: 0.92em; background: var(--none-bg); border-radius: 5px; padding: 1px 5px; }
 footer { color: var(--soft); font-size: 0.85rem; margin-top: 22px; }
-@media (max-width: 820px) { .figure { grid-template-columns: 1fr; } main { padding: 18px 12px 40px; }
+@media (max-width: 820px) { .figure { grid-template-columns: minmax(0, 1fr); } main { padding: 18px 12px 40px; }
   section { padding: 14px; } .figure svg { min-width: 620px; } }
 @media print { body { background: #fff; } section { break-inside: avoid; } }
 )css";

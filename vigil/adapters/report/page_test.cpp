@@ -45,6 +45,45 @@ TEST(Page, A_broken_claim_is_called_broken) {
   EXPECT_NE(page.find("0.1500 m at 9.9 s"), std::string::npos);
 }
 
+TEST(Page, A_deadline_that_was_missed_does_not_hold_and_one_that_was_kept_does) {
+  Report report;
+  const std::size_t before = count_of(report.write(), "does not hold");
+  report.mission.targets.clusters[1].revisit_s = 12.0;
+  const std::string missed = report.write();
+  EXPECT_EQ(count_of(missed, "does not hold"), before + 1);
+  EXPECT_NE(missed.find("Asked: 12 s. Worst: 12.5 s."), std::string::npos);
+  report.mission.targets.clusters[1].revisit_s = 12.5;
+  EXPECT_EQ(count_of(report.write(), "does not hold"), before);
+  report.mission.targets.clusters[0].revisit_s = 5.0;  // of which the summary says nothing
+  EXPECT_NE(report.write().find("The worst is not known"), std::string::npos);
+}
+
+TEST(Page, Fall_backs_are_judged_in_ticks_of_how_many) {
+  Report report;
+  report.summary = "{\"fallback_ticks\": 0, \"ticks\": 6000}";
+  const std::string none = report.write();
+  EXPECT_NE(none.find("<td>0</td><td>0</td><td>holds</td>"), std::string::npos);
+  report.summary = "{\"fallback_ticks\": 7, \"ticks\": 6000}";
+  EXPECT_NE(report.write().find("does not hold in 7 of 6000 ticks"), std::string::npos);
+}
+
+TEST(Page, Captions_speak_of_inactive_drones_only_where_there_are_such) {
+  Report report;
+  for (const char* words : {"Grey:", "crosses:", "Pale:"})
+    EXPECT_NE(report.write().find(words), std::string::npos) << words;
+  report.flight = sample_flight({.landing_s = 1e9});
+  for (const char* words : {"Grey:", "crosses:", "Pale:"})
+    EXPECT_EQ(report.write().find(words), std::string::npos) << words;
+}
+
+TEST(Page, The_mission_s_demands_are_not_called_the_paper_s) {
+  const std::string page = Report().write();
+  const std::size_t mission = page.find("What the mission asks for", page.find("id=\"fig8_distances\""));
+  ASSERT_NE(mission, std::string::npos);
+  EXPECT_GT(page.find("Drones that are in the air keep"), mission);
+  EXPECT_LT(page.find("Active drones always keep"), mission);
+}
+
 TEST(Page, The_summary_goes_before_the_recording_where_both_know) {
   Report report;
   const std::string page = report.write();

@@ -165,9 +165,9 @@ std::string inactive_shade(const FlightData& data, std::size_t drone) {
 std::string field_axes(const FlightData& data, bool with_y_numbers) {
   std::string text = fmt::format(
       "unset arrow\nunset label\nunset object\nset border 15 lw 0.8 lc rgb '#000000'\nunset grid\nset size ratio -1\n"
-      "set xrange [0:{:.9g}]\nset yrange [0:{:.9g}]\nset format x '%g'\nset xlabel 'x [m]' offset 0,0.4\n",
+      "set xrange [0:{:.9g}]\nset yrange [0:{:.9g}]\nset format x '%g'\nset xlabel 'x, field frame [m]' offset 0,0.4\n",
       data.field.length_x, data.field.length_y);
-  text += with_y_numbers ? "set format y '%g'\nset ylabel 'y [m]'\n" : "set format y ''\nunset ylabel\n";
+  text += with_y_numbers ? "set format y '%g'\nset ylabel 'y, field frame [m]'\n" : "set format y ''\nunset ylabel\n";
   const field::WorldFrame frame = runtime::world_frame(data.mission);
   for (const runtime::NoFlyEntry& area : data.mission.no_fly) text += outline_object(area, frame);
   return text;

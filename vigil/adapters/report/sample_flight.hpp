@@ -82,7 +82,7 @@ inline void add_sample_row(runtime::RecordedFlight& flight, const SampleOptions&
   rows.held_by.emplace_back();
   rows.fallback.push_back(0);
   rows.true_position_m.push_back(place);
-  rows.true_height_m.push_back(0.5);
+  rows.true_height_m.push_back(is_down ? 0.0 : 0.5);
 }
 
 inline runtime::RecordedFlight sample_flight(const SampleOptions& options = {}) {

@@ -13,6 +13,7 @@ namespace {
 using Json = nlohmann::ordered_json;  // times stay in their order
 using Rows = std::vector<std::vector<std::string>>;
 
+constexpr double kRounding = 1e-9;  // of positions, velocities and times: no violation
 constexpr double kInfinite = std::numeric_limits<double>::infinity();
 
 /// summary.json, or nothing of it. Every look-up is for something that may be missing or of another kind.
@@ -61,37 +62,55 @@ std::string percent_text(const FlightData& data, const Summary& summary) {
   return std::isfinite(percent) ? fmt::format("{:.3g} %", percent) : "none";
 }
 
+std::string verdict_text(bool holds) { return holds ? "holds" : "does not hold"; }
+
 void add_count(Rows& rows, const Summary& summary, const char* what, const char* path) {
-  if (const auto count = summary.number(path)) rows.push_back({what, fmt::format("{:g}", *count), "0"});
+  if (const auto count = summary.number(path))
+    rows.push_back({what, fmt::format("{:g}", *count), "0", verdict_text(*count == 0.0)});
+}
+
+void add_fallbacks(Rows& rows, const FlightData& data, const Summary& summary) {
+  const auto counted = summary.number("/fallback_ticks");
+  const double fallbacks = counted.value_or(static_cast<double>(recorded_fallbacks(data)));
+  const double ticks = (counted ? summary.number("/ticks") : std::nullopt).value_or(static_cast<double>(data.ticks()));
+  rows.push_back({"ticks with a least-violation fall-back", fmt::format("{:.15g}", fallbacks), "0",
+                  fallbacks == 0.0 ? verdict_text(true)
+                                   : fmt::format("does not hold in {:.15g} of {:.15g} ticks", fallbacks, ticks)});
+}
+
+/// "between drones", its least distance, the bound, and whether it is kept.
+std::vector<std::string> distance_row(const char* what, double least_m, double bound_m) {
+  return {what, metres(least_m), metres(bound_m),
+          std::isfinite(least_m) ? verdict_text(least_m >= bound_m - kRounding) : ""};
 }
 
 Rows safety_rows(const FlightData& data, const Summary& summary) {
   const runtime::SafetySection& safety = data.mission.safety;
-  const auto distance = [&](const char* path, double runtime::Clearances::* recorded) {
-    return metres(summary.number(path).value_or(recorded_least(data, recorded)));
+  const auto least = [&](const char* path, double runtime::Clearances::* recorded) {
+    return summary.number(path).value_or(recorded_least(data, recorded));
   };
-  Rows rows{{"", "least or most", "asked for"},
-            {"between active drones", distance("/min_separation_m/active", &runtime::Clearances::active_pair_m),
-             metres(safety.separation_m)},
-            {"between drones in the air", distance("/min_separation_m/airborne", &runtime::Clearances::airborne_pair_m),
-             metres(safety.separation_m)},
-            {"to the border", distance("/min_wall_distance_m", &runtime::Clearances::wall_m),
-             metres(safety.wall_distance_m)}};
+  Rows rows{
+      {"", "least or most", "asked for", "verdict"},
+      distance_row("between active drones", least("/min_separation_m/active", &runtime::Clearances::active_pair_m),
+                   safety.separation_m),
+      distance_row("between drones in the air",
+                   least("/min_separation_m/airborne", &runtime::Clearances::airborne_pair_m), safety.separation_m),
+      distance_row("to the border", least("/min_wall_distance_m", &runtime::Clearances::wall_m),
+                   safety.wall_distance_m)};
   if (!data.mission.no_fly.empty()) {
-    rows.push_back({"to no-fly areas", distance("/min_no_fly_distance_m", &runtime::Clearances::no_fly_m),
-                    metres(safety.no_fly_buffer_m.value_or(safety.wall_distance_m))});
+    rows.push_back(distance_row("to no-fly areas", least("/min_no_fly_distance_m", &runtime::Clearances::no_fly_m),
+                                safety.no_fly_buffer_m.value_or(safety.wall_distance_m)));
   }
-  const auto speed = summary.number("/max_speed_m_s");
-  rows.push_back({speed ? "speed" : "speed asked for", fmt::format("{:.4g} m/s", speed.value_or(fastest_command(data))),
-                  fmt::format("{:.4g} m/s", data.mission.control.speed_limit_m_s)});
+  const auto measured_speed = summary.number("/max_speed_m_s");
+  const double speed = measured_speed.value_or(fastest_command(data));
+  const double limit = data.mission.control.speed_limit_m_s;
+  rows.push_back({measured_speed ? "speed" : "speed asked for", fmt::format("{:.4g} m/s", speed),
+                  fmt::format("{:.4g} m/s", limit), verdict_text(speed <= limit + kRounding)});
   add_count(rows, summary, "violations of the distance between drones in the air", "/separation_violations");
   add_count(rows, summary, "violations of the distance to the border", "/wall_violations");
   add_count(rows, summary, "violations of no-fly areas", "/no_fly_violations");
   add_count(rows, summary, "violations of the speed limit", "/speed_violations");
-  rows.push_back(
-      {"ticks with a least-violation fall-back",
-       fmt::format("{:g}", summary.number("/fallback_ticks").value_or(static_cast<double>(recorded_fallbacks(data)))),
-       "0"});
+  add_fallbacks(rows, data, summary);
   return rows;
 }
 
@@ -116,6 +135,27 @@ Rows coverage_rows(const FlightData& data, const Summary& summary) {
   return rows;
 }
 
+Finding deadline(const Summary& summary, const std::string& name, double asked_s) {
+  Finding finding{fmt::format("No part of '{}' goes unseen for more than {:.4g} s.", name, asked_s),
+                  fmt::format("Asked: {:.4g} s. The worst is not known: summary.json does not tell it.", asked_s),
+                  Verdict::kNotTested, Source::kMission};
+  const Json* all = summary.at("/worst_revisit_s");
+  if (all == nullptr || !all->is_object() || !all->contains(name) || !all->at(name).is_number()) return finding;
+  const double worst_s = all->at(name).get<double>();
+  finding.measured = fmt::format("Asked: {:.4g} s. Worst: {:.4g} s.", asked_s, worst_s);
+  finding.verdict = worst_s <= asked_s + kRounding ? Verdict::kHolds : Verdict::kDiffers;
+  return finding;
+}
+
+std::vector<Finding> deadlines_of(const FlightData& data, const Summary& summary) {
+  std::vector<Finding> findings;
+  for (const runtime::ClusterEntry& cluster : data.mission.targets.clusters)
+    if (cluster.revisit_s) findings.push_back(deadline(summary, cluster.name, *cluster.revisit_s));
+  for (const runtime::AreaEntry& area : data.mission.targets.areas)
+    if (area.revisit_s) findings.push_back(deadline(summary, area.name, *area.revisit_s));
+  return findings;
+}
+
 Rows timing_rows(const FlightData& data, const Summary& summary) {
   Rows rows{{"", "value"},
             {"recorded", fmt::format("{:.4g} s in {} ticks", data.end_s() - data.time_s(0), data.ticks())},
@@ -134,8 +174,9 @@ std::vector<SummaryFacts::Tile> tiles_of(const FlightData& data, const Summary& 
   };
   std::vector<SummaryFacts::Tile> tiles{
       {percent_text(data, summary), "metric at the end, of its first value"},
-      {distance("/min_separation_m/active", &runtime::Clearances::active_pair_m),
-       fmt::format("nearest two active drones (R_s = {:g} m)", data.mission.safety.separation_m)},
+      {distance("/min_separation_m/airborne", &runtime::Clearances::airborne_pair_m),
+       fmt::format("nearest two drones in the air (R_s = {:g} m)", data.mission.safety.separation_m)},
+      {distance("/min_separation_m/active", &runtime::Clearances::active_pair_m), "nearest two active drones"},
       {distance("/min_wall_distance_m", &runtime::Clearances::wall_m),
        fmt::format("nearest to the border (R_wall = {:g} m)", data.mission.safety.wall_distance_m)},
       {fmt::format("{} of {}", data.flight.ticks.active.back(), data.drones()), "drones active at the end"}};
@@ -171,8 +212,9 @@ std::vector<std::string> warnings_of(const FlightData& data, const Summary& summ
 
 SummaryFacts summary_facts(const FlightData& data, const std::optional<std::string>& summary_json) {
   const Summary summary(summary_json);
-  return {tiles_of(data, summary), safety_rows(data, summary), coverage_rows(data, summary), timing_rows(data, summary),
-          warnings_of(data, summary, summary_json.has_value())};
+  return {tiles_of(data, summary),      safety_rows(data, summary),
+          coverage_rows(data, summary), timing_rows(data, summary),
+          deadlines_of(data, summary),  warnings_of(data, summary, summary_json.has_value())};
 }
 
 }  // namespace vigil::report

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "vigil/adapters/report/findings.hpp"
 #include "vigil/adapters/report/flight_data.hpp"
 
 namespace vigil::report {
@@ -17,9 +18,10 @@ struct SummaryFacts {
     std::string what;
   };
   std::vector<Tile> tiles;
-  std::vector<std::vector<std::string>> safety;    ///< rows of a table: what, value, asked for
+  std::vector<std::vector<std::string>> safety;    ///< rows of a table: what, value, asked for, verdict
   std::vector<std::vector<std::string>> coverage;  ///< rows: what, value
   std::vector<std::vector<std::string>> timing;    ///< rows: what, value
+  std::vector<Finding> deadlines;                  ///< one for each cluster or area that has revisit_s
   std::vector<std::string> warnings;               ///< a flight cut short, a summary that cannot be read, ...
 };
 

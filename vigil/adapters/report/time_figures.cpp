@@ -210,9 +210,10 @@ Figure pair_panels(const FlightData& data, Figure figure) {
       figure.commands += panel == 0 ? "set key at screen 0.975, screen 0.995 right top horizontal\n" : "unset key\n";
       figure.commands +=
           fmt::format("plot ${} using 1:2 with lines lw 1.4 lc rgb '{}' title 'both active', ", name, kGreen);
-      // The legend names the dimmed line once, in whatever panel it is.
+      // The legend names the dimmed line once, in whatever panel it is, where there is one at all.
       figure.commands +=
-          other.empty()
+          other.empty() && data.changes.empty() ? ""
+          : other.empty()
               ? fmt::format("NaN with lines lw 1.4 lc rgb '{}' title 'not both active', ", kPale)
               : fmt::format("${}_off using 1:2 with lines lw 1.4 lc rgb '{}' title 'not both active', ", name, kPale);
       figure.commands += fmt::format("{:.6g} with lines dt (10,6) lw 1.3 lc rgb '{}' title 'R_s'\n", bound, kRed);
@@ -275,10 +276,13 @@ Figure metric_figure(const FlightData& data) {
   return figure;
 }
 
+bool shows_each_input(const FlightData& data) { return data.drones() <= kMostInputPanels; }
+
+bool shows_each_pair(const FlightData& data) { return data.drones() >= 2 && data.drones() <= kMostPairDrones; }
+
 Figure input_figure(const FlightData& data) {
   Figure figure{"fig6_inputs", 800, 0, {}, {}};
-  return data.drones() <= kMostInputPanels ? input_panels(data, std::move(figure))
-                                           : input_distribution(data, std::move(figure));
+  return shows_each_input(data) ? input_panels(data, std::move(figure)) : input_distribution(data, std::move(figure));
 }
 
 Figure distance_figure(const FlightData& data) {
@@ -287,8 +291,7 @@ Figure distance_figure(const FlightData& data) {
     figure.commands = empty_figure("one drone has no distance to another");
     return figure;
   }
-  return data.drones() <= kMostPairDrones ? pair_panels(data, std::move(figure))
-                                          : nearest_panel(data, std::move(figure));
+  return shows_each_pair(data) ? pair_panels(data, std::move(figure)) : nearest_panel(data, std::move(figure));
 }
 
 }  // namespace vigil::report
