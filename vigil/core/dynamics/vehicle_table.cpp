@@ -7,7 +7,7 @@ namespace vigil::dynamics {
 namespace {
 
 // Crazyflie firmware, velocity-world setpoints. Natural frequency sqrt(kp/Ta) = 5.69 rad/s, damping
-// 1 / (2 sqrt(kp Ta)) = 0.467. The dead time is within the 20 to 40 ms to which the recordings' onset is known.
+// 1 / (2 sqrt(kp Ta)) = 0.467. Dead time is taken as 0: the onset of the recordings is known to 20 to 40 ms only.
 //   fit   x 0 to -1    0.0046 (0.5 %)      x 0.5 to 0   0.0025 (0.6 %)
 //   test  x 0 to 0.5   0.0027 (0.6 %)      x -1 to 0    0.0057 (0.6 %)
 constexpr VelocityLoop kCrazyflie{.gain = 0.878, .proportional_per_s = 6.09, .actuator_lag_s = 0.188};
@@ -20,13 +20,13 @@ constexpr VelocityLoop kArduCopterHorizontal{.proportional_per_s = 2.41,
                                              .acceleration_limit_m_s2 = 2.57,
                                              .jerk_limit_m_s3 = 5.53,
                                              .response_delay_s = 0.12};
-//   fit   z 0 to 1     0.016 (1.6 %)       z 1 to -1    0.023 (1.1 %)
+//   fit   z 0 to 1     0.016 (1.6 %)       z 1 to -1    0.022 (1.1 %)
 //   test  z -1 to 0    0.016 (1.7 %)
 constexpr VelocityLoop kArduCopterVertical{
     .proportional_per_s = 3.54, .actuator_lag_s = 0.254, .acceleration_limit_m_s2 = 1.15};
 
 // PX4 v1.16-alpha on its own simulated quadrotor, OFFBOARD. The integral is slow and the drag strong, both as recorded.
-//   fit   x 0 to 5     0.038 (0.8 %)       x 5 to 0     0.045 (1.1 %)
+//   fit   x 0 to 5     0.039 (0.9 %)       x 5 to 0     0.045 (1.1 %)
 //   test  x 0 to 2     0.023 (1.4 %)       y 0 to -2    0.067 (3.7 %)      y -2 to 0    0.093 (5.8 %)
 constexpr VelocityLoop kPx4Horizontal{.proportional_per_s = 1.50,
                                       .integral_per_s2 = 0.262,
