@@ -61,6 +61,25 @@ TEST(DensityFindings, Drones_that_visit_all_targets_alike_hold) {
   EXPECT_EQ(density_findings(Case().map())[1].verdict, Verdict::kHolds);
 }
 
+TEST(DensityFindings, A_target_with_two_thirds_of_what_it_asked_for_is_not_attended_to) {
+  Case c;
+  CoverageMap map = c.map();
+  for (AttentionShare& share : map.shares) share.achieved = share.asked;
+  map.shares[0].achieved = 0.72 * map.shares[0].asked;
+  EXPECT_EQ(density_findings(map)[1].verdict, Verdict::kHolds);
+  map.shares[0].achieved = 0.66 * map.shares[0].asked;
+  EXPECT_EQ(density_findings(map)[1].verdict, Verdict::kDiffers);
+}
+
+TEST(SnapshotFindings, A_swarm_that_is_around_targets_half_as_long_as_asked_is_not_drawn_to_them) {
+  const Case c;
+  CoverageMap map = c.map();
+  const double asked = 1.0 - map.shares.back().asked;
+  map.shares.back().achieved = 1.0 - 0.54 * asked;
+  ASSERT_LT(1.0 - map.shares.back().area, 0.54 * asked);  // more than flying anywhere would give
+  EXPECT_EQ(snapshot_findings(c.data(), map)[0].verdict, Verdict::kDiffers);
+}
+
 TEST(InputFindings, One_command_over_the_limit_differs_and_is_named) {
   Case c;
   EXPECT_EQ(input_findings(c.data())[0].verdict, Verdict::kHolds);

@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "vigil/adapters/report/page_figures.hpp"
+#include "vigil/adapters/report/plotting.hpp"
 #include "vigil/adapters/report/sample_flight.hpp"
 #include "vigil/runtime/mission_setup.hpp"
 
@@ -82,6 +83,17 @@ TEST(Page, The_mission_s_demands_are_not_called_the_paper_s) {
   ASSERT_NE(mission, std::string::npos);
   EXPECT_GT(page.find("Drones that are in the air keep"), mission);
   EXPECT_LT(page.find("Active drones always keep"), mission);
+}
+
+TEST(Page, A_wide_figure_does_not_widen_a_narrow_page) {
+  EXPECT_NE(Report().write().find(".figure { grid-template-columns: minmax(0, 1fr); }"), std::string::npos);
+}
+
+TEST(Page, Maps_say_which_frame_their_axes_are_in) {
+  const Report report;
+  const std::string axes = field_axes(prepare(report.flight, report.mission), true);
+  EXPECT_NE(axes.find("'x, field frame [m]'"), std::string::npos);
+  EXPECT_NE(axes.find("'y, field frame [m]'"), std::string::npos);
 }
 
 TEST(Page, The_summary_goes_before_the_recording_where_both_know) {
