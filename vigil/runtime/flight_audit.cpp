@@ -17,8 +17,26 @@ void lower(double& least, double value) { least = std::min(least, value); }
 
 }  // namespace
 
-FlightAudit::FlightAudit(AuditLimits limits, std::size_t drones) : limits_(std::move(limits)) {
+FlightAudit::FlightAudit(AuditLimits limits, std::size_t drones) : limits_(std::move(limits)), piloted_(drones, 0) {
   airborne_.reserve(drones);
+}
+
+bool FlightAudit::is_within_limits(const TruthSample& drone) const noexcept {
+  const auto is_clear = [&](const field::Polygon& polygon) {
+    return field::signed_distance(polygon, drone.position) >= limits_.no_fly_buffer_m - kRounding;
+  };
+  return drone.velocity.norm() <= limits_.speed_limit_m_s + kRounding &&
+         wall_distance(limits_.field, drone.position) >= limits_.wall_distance_m - kRounding &&
+         std::all_of(limits_.no_fly.begin(), limits_.no_fly.end(), is_clear);
+}
+
+void FlightAudit::note_pilots(std::span<const TruthSample> truth) noexcept {
+  for (std::size_t i = 0; i < truth.size(); ++i) {
+    if (truth[i].mode == swarm::VehicleMode::kManual)
+      piloted_[i] = 1;
+    else if (piloted_[i] == 1 && is_within_limits(truth[i]))
+      piloted_[i] = 0;
+  }
 }
 
 /// Sweeps from left to right; a pair farther apart in x than both R_s and the least distances so far changes nothing.
@@ -43,6 +61,7 @@ void FlightAudit::judge_pairs(std::span<const TruthSample> truth, const swarm::S
 
 void FlightAudit::judge_places(std::span<const TruthSample> truth, Clearances& now) noexcept {
   for (const std::size_t drone : airborne_) {
+    if (piloted_[drone] == 1) continue;
     const Vec2& p = truth[drone].position;
     const double wall = wall_distance(limits_.field, p);
     lower(now.wall_m, wall);
@@ -56,7 +75,7 @@ void FlightAudit::judge_places(std::span<const TruthSample> truth, Clearances& n
 
 void FlightAudit::judge_speeds(std::span<const TruthSample> truth, const swarm::Snapshot& snapshot) noexcept {
   for (const std::size_t drone : airborne_) {
-    if (snapshot.drones[drone].order.action != swarm::Action::kVelocity) continue;
+    if (piloted_[drone] == 1 || snapshot.drones[drone].order.action != swarm::Action::kVelocity) continue;
     const double speed = truth[drone].velocity.norm();
     totals_.max_speed_m_s = std::max(totals_.max_speed_m_s, speed);
     if (speed > limits_.speed_limit_m_s + kRounding) ++totals_.speed_violations;
@@ -69,6 +88,7 @@ Clearances FlightAudit::judge(std::span<const TruthSample> truth, const swarm::S
     const bool is_up = truth[i].mode != swarm::VehicleMode::kGrounded && truth[i].height_m > limits_.landed_height_m;
     if (is_up) airborne_.push_back(i);
   }
+  note_pilots(truth);
   Clearances now;
   judge_pairs(truth, snapshot, now);
   judge_places(truth, now);

@@ -28,9 +28,11 @@ struct AuditTotals {
   Clearances least;                         ///< of all ticks
   double max_speed_m_s = 0.0;               ///< horizontal, of drones that the controller steered
   std::uint64_t separation_violations = 0;  ///< ticks x pairs of airborne drones closer than R_s
-  std::uint64_t wall_violations = 0;        ///< ticks x airborne drones closer than R_wall to the border, or outside
-  std::uint64_t no_fly_violations = 0;      ///< ticks x airborne drones within the buffer of a no-fly polygon
-  std::uint64_t speed_violations = 0;       ///< ticks x steered drones faster than u_max
+  // Not of a drone that a pilot flies, or has given back where or as fast as the controller never would, until it is
+  // back within the limits: those are the pilot's.
+  std::uint64_t wall_violations = 0;    ///< ticks x airborne drones closer than R_wall to the border, or outside
+  std::uint64_t no_fly_violations = 0;  ///< ticks x airborne drones within the buffer of a no-fly polygon
+  std::uint64_t speed_violations = 0;   ///< ticks x steered drones faster than u_max
 };
 
 /// Judges a flight by ground truth, whatever the controller believed. A rounding of 1e-9 (m, m/s) is no violation.
@@ -43,6 +45,8 @@ class FlightAudit {
   [[nodiscard]] const AuditTotals& totals() const { return totals_; }
 
  private:
+  void note_pilots(std::span<const TruthSample> truth) noexcept;
+  [[nodiscard]] bool is_within_limits(const TruthSample& drone) const noexcept;
   void judge_pairs(std::span<const TruthSample> truth, const swarm::Snapshot& snapshot, Clearances& now) noexcept;
   void judge_places(std::span<const TruthSample> truth, Clearances& now) noexcept;
   void judge_speeds(std::span<const TruthSample> truth, const swarm::Snapshot& snapshot) noexcept;
@@ -50,6 +54,7 @@ class FlightAudit {
   AuditLimits limits_;
   AuditTotals totals_;
   std::vector<std::size_t> airborne_;  ///< work space: drones in the air, from left to right
+  std::vector<std::uint8_t> piloted_;  ///< 1 from when a pilot takes a drone until it is back within the limits
 };
 
 }  // namespace vigil::runtime

@@ -93,6 +93,23 @@ TEST(FlightAudit, Only_drones_that_the_controller_steers_can_break_its_speed_lim
   EXPECT_DOUBLE_EQ(totals.max_speed_m_s, 0.4);
 }
 
+TEST(FlightAudit, Where_a_pilot_flies_is_the_pilots_until_the_drone_is_back_within_the_limits) {
+  Scene scene({{-0.5, 1.0}});
+  FlightAudit audit(limits(), 1);
+  scene.truth[0].mode = swarm::VehicleMode::kManual;
+  scene.truth[0].velocity = Vec2(5.0, 0.0);
+  audit.judge(scene.truth, scene.snapshot);
+  scene.truth[0].mode = swarm::VehicleMode::kFlying;  // given back, still outside
+  audit.judge(scene.truth, scene.snapshot);
+  EXPECT_EQ(audit.totals().wall_violations + audit.totals().speed_violations, 0U);
+  scene.truth[0].position = Vec2(1.0, 1.0);
+  scene.truth[0].velocity.setZero();
+  audit.judge(scene.truth, scene.snapshot);
+  scene.truth[0].position = Vec2(0.1, 1.0);  // the controller's own doing
+  audit.judge(scene.truth, scene.snapshot);
+  EXPECT_EQ(audit.totals().wall_violations, 1U);
+}
+
 TEST(FlightAudit, The_sweep_finds_what_looking_at_every_pair_finds) {
   std::mt19937_64 random(11);
   std::uniform_real_distribution<double> coordinate(0.0, 3.0);

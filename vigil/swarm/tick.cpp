@@ -42,11 +42,15 @@ bool stands_still(Activity activity) {
   return activity == Activity::kTakingOff || activity == Activity::kLanding || activity == Activity::kBatteryLow;
 }
 
-/// Whether it may move sideways although nobody here steers it.
+/// Whether it may move sideways although nobody here steers it. A drone that is not tracked is told to hover; how far
+/// it may have gone is a matter of its age.
 bool may_wander(Activity activity) {
   return activity == Activity::kOverridden || activity == Activity::kMarkedFailed ||
-         activity == Activity::kVehicleFailed || activity == Activity::kTrackingLost || activity == Activity::kLinkLost;
+         activity == Activity::kVehicleFailed || activity == Activity::kLinkLost;
 }
+
+/// Whether it is about to leave the ground.
+bool wants_up(const DroneMemory& drone) { return drone.intent == Intent::kTakeOff; }
 
 }  // namespace
 
@@ -177,9 +181,11 @@ void SwarmState::go_down_the_gradient() noexcept {
 }
 
 void SwarmState::look_ahead() noexcept {
+  const safety::BarrierParameters& barrier = parameters_.barrier;
+  const double reserve_m = safety::wall_reserve(barrier, {});
   const ergodic::AllowedRegion region{.field = parameters_.field,
-                                      .wall_distance_m = parameters_.barrier.wall_distance_m,
-                                      .no_fly_distance_m = safety::no_fly_radius(parameters_.barrier),
+                                      .wall_distance_m = barrier.wall_distance_m + reserve_m,
+                                      .no_fly_distance_m = safety::no_fly_radius(barrier, reserve_m),
                                       .no_fly = target_.no_fly};
   look_ahead_.steer(kernel_, statistics_, target_.phi_k, region, departures_, active_u_);
 }
@@ -214,8 +220,9 @@ safety::Body SwarmState::body_of(const DroneMemory& drone) const noexcept {
   body.velocity = drone.last_good.velocity;
   body.age_s = assumed_age(drone);
   body.is_controlled = is_steered(drone.activity) || stands_still(drone.activity);
-  body.is_obstacle = parameters_.only_active_are_obstacles ? drone.activity == Activity::kActive
-                                                           : is_airborne(drone, parameters_.health);
+  // Others clear the air above a drone that is to take off.
+  const bool takes_room = is_airborne(drone, parameters_.health) || wants_up(drone);
+  body.is_obstacle = parameters_.only_active_are_obstacles ? drone.activity == Activity::kActive : takes_room;
   body.uncooperative_speed_m_s = may_wander(drone.activity) ? parameters_.barrier.u_max_m_s : 0.0;
   return body;
 }
@@ -224,6 +231,17 @@ void SwarmState::keep_safe(Snapshot& out) noexcept {
   for (std::size_t index = 0; index < drones_.size(); ++index) bodies_[index] = body_of(drones_[index]);
   filter_.run(bodies_, target_.no_fly, u_nom_, u_, reports_);
   out.fallback = std::any_of(reports_.begin(), reports_.end(), [](const auto& report) { return report.fallback; });
+}
+
+bool SwarmState::has_clear_air(std::size_t index) const noexcept {
+  constexpr double kRounding = 1e-6;  // those who clear the air come to rest on the boundary itself
+  const double room = safety::barrier_radius(parameters_.barrier) - kRounding;
+  const Vec2& place = drones_[index].last_good.position;
+  for (std::size_t other = 0; other < drones_.size(); ++other) {
+    const bool is_in_the_way = other != index && is_airborne(drones_[other], parameters_.health);
+    if (is_in_the_way && (drones_[other].last_good.position - place).norm() < room) return false;
+  }
+  return true;
 }
 
 void SwarmState::write_orders(Snapshot& out) noexcept {
@@ -241,6 +259,7 @@ void SwarmState::write_orders(Snapshot& out) noexcept {
     to.is_obstacle = bodies_[index].is_obstacle;
     to.u_nom = u_nom_[index];
     to.order.action = action_for(drone);
+    if (to.order.action == Action::kTakeOff && !has_clear_air(index)) to.order.action = Action::kNone;
     to.order.velocity = to.order.action == Action::kVelocity ? u_[index] : Vec2::Zero();
     to.filter = reports_[index];
   }

@@ -44,6 +44,8 @@ class SwarmState {
   void look_ahead() noexcept;
   void keep_safe(Snapshot& out) noexcept;
   void write_orders(Snapshot& out) noexcept;
+  /// Nobody flies so close above a grounded drone that it would come up into its way.
+  [[nodiscard]] bool has_clear_air(std::size_t index) const noexcept;
   [[nodiscard]] safety::Body body_of(const DroneMemory& drone) const noexcept;
   [[nodiscard]] double assumed_age(const DroneMemory& drone) const noexcept;
 

@@ -175,6 +175,21 @@ TEST(Tick, A_held_drone_covers_nothing_but_still_gives_way) {
   EXPECT_EQ(world.snapshot.drones[0].activity, Activity::kHeld);
 }
 
+TEST(Tick, A_take_off_waits_until_the_air_above_is_clear_and_the_others_clear_it) {
+  IdealWorld world(parameters(2), {{1.5, 1.5}, {1.55, 1.5}});
+  world.land(0);
+  world.step();
+  world.step({wish(CommandKind::kTakeOff, 0)});
+  EXPECT_EQ(world.snapshot.drones[0].order.action, Action::kNone);
+  int waited = 0;
+  while (world.snapshot.drones[0].order.action != Action::kTakeOff && waited < 1000) {
+    world.step();
+    ++waited;
+  }
+  EXPECT_LT(waited, 1000);
+  EXPECT_GE(world.distance(0, 1), 0.2 - 1e-5);
+}
+
 TEST(Tick, A_command_takes_effect_in_the_tick_that_it_is_given_to) {
   IdealWorld world(parameters(2), {{0.5, 0.5}, {2.5, 2.5}});
   world.step({set_target(target_around(world.state, {1.5, 1.5}))});

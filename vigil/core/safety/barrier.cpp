@@ -102,13 +102,21 @@ double reach_of_row(const BarrierParameters& parameters, const PairBarrier& barr
   return std::max(held, high);
 }
 
-PairBarrier barrier_of_distance(const BarrierParameters& parameters, const Body& own, const Body& other,
-                                double distance_m, double gain) {
+double closing_speed_of(const Body& other) {
+  return other.is_controlled ? 0.0 : std::max(0.0, other.uncooperative_speed_m_s);
+}
+
+/// How far two drones may have come since they were seen.
+double drift_of(const BarrierParameters& parameters, const Body& own, const Body& other) {
+  const double u_max = parameters.u_max_m_s;
+  return u_max * std::max(0.0, own.age_s) + std::max(u_max, closing_speed_of(other)) * std::max(0.0, other.age_s);
+}
+
+PairBarrier barrier_of_distance(const BarrierParameters& parameters, const Body& other, double distance, double drift,
+                                double gain) {
   const double lag = lag_of(parameters);
   const double u_max = parameters.u_max_m_s;
-  const double distance = distance_m + margin_of(parameters);
-  const double speed = other.is_controlled ? 0.0 : std::max(0.0, other.uncooperative_speed_m_s);
-  const double drift = u_max * std::max(0.0, own.age_s) + std::max(u_max, speed) * std::max(0.0, other.age_s);
+  const double speed = closing_speed_of(other);
   PairBarrier barrier;
   barrier.gain = gain;
   if (other.is_controlled) {
@@ -146,11 +154,20 @@ Vec2 barrier_point(const BarrierParameters& parameters, const Body& body) {
 }
 
 PairBarrier separation_barrier(const BarrierParameters& parameters, const Body& own, const Body& other) {
-  return barrier_of_distance(parameters, own, other, parameters.separation_m, parameters.pair_gain);
+  return barrier_of_distance(parameters, other, parameters.separation_m + margin_of(parameters),
+                             drift_of(parameters, own, other), parameters.pair_gain);
 }
 
-PairBarrier contact_barrier(const BarrierParameters& parameters, const Body& own, const Body& other) {
-  return barrier_of_distance(parameters, own, other, parameters.contact_distance_m, std::numeric_limits<double>::max());
+PairBarrier bare_separation_barrier(const BarrierParameters& parameters, const Body& other) {
+  return barrier_of_distance(parameters, other, parameters.separation_m, 0.0, parameters.pair_gain);
+}
+
+PairBarrier contact_barrier(const BarrierParameters& parameters, const Body& other) {
+  return barrier_of_distance(parameters, other, parameters.contact_distance_m, 0.0, std::numeric_limits<double>::max());
+}
+
+double wall_reserve(const BarrierParameters& parameters, const Body& own) {
+  return margin_of(parameters) + parameters.u_max_m_s * std::max(0.0, own.age_s);
 }
 
 std::optional<HalfPlane> pair_row(const BarrierParameters& parameters, const PairBarrier& barrier, const Vec2& z_ij,
@@ -172,17 +189,17 @@ double wall_distance(const field::Field& field, const Vec2& z, int wall) {
 }
 
 std::optional<HalfPlane> wall_row(const BarrierParameters& parameters, const field::Field& field, const Vec2& z,
-                                  int wall) {
+                                  int wall, double reserve_m, Priority priority) {
   static const std::array<Vec2, 4> kInward{Vec2(1.0, 0.0), Vec2(-1.0, 0.0), Vec2(0.0, 1.0), Vec2(0.0, -1.0)};
   const double distance = wall_distance(field, z, wall);
-  const double radius = parameters.wall_distance_m + margin_of(parameters);
+  const double radius = parameters.wall_distance_m + reserve_m;
   if (beyond_wall_range(parameters, distance, radius)) return std::nullopt;
   const double offset = fixed_offset(parameters, distance, radius);
-  return binding(parameters, {kInward[static_cast<std::size_t>(wall)], offset, Priority::kWall});
+  return binding(parameters, {kInward[static_cast<std::size_t>(wall)], offset, priority});
 }
 
-double no_fly_radius(const BarrierParameters& parameters) {
-  return std::hypot(parameters.no_fly_buffer_m + margin_of(parameters), lag_of(parameters) * parameters.u_max_m_s);
+double no_fly_radius(const BarrierParameters& parameters, double reserve_m) {
+  return std::hypot(parameters.no_fly_buffer_m + reserve_m, lag_of(parameters) * parameters.u_max_m_s);
 }
 
 std::size_t outline_length(std::span<const field::Segment> edges) {
@@ -204,13 +221,14 @@ bool encloses(std::span<const field::Segment> outline, const Vec2& z) {
   return inside;
 }
 
-std::optional<HalfPlane> edge_row(const BarrierParameters& parameters, const field::Segment& edge, const Vec2& z) {
+std::optional<HalfPlane> edge_row(const BarrierParameters& parameters, const field::Segment& edge, const Vec2& z,
+                                  double reserve_m, Priority priority) {
   const Vec2 away = z - field::nearest_point(edge, z);
   const double distance = away.norm();
-  const double radius = no_fly_radius(parameters);
+  const double radius = no_fly_radius(parameters, reserve_m);
   if (beyond_wall_range(parameters, distance, radius)) return std::nullopt;
   const Vec2 normal = distance > kCoincident ? Vec2(away / distance) : outward(edge);
-  return binding(parameters, {normal, fixed_offset(parameters, distance, radius), Priority::kWall});
+  return binding(parameters, {normal, fixed_offset(parameters, distance, radius), priority});
 }
 
 WayOut way_out(const BarrierParameters& parameters, std::span<const field::Segment> outline, const Vec2& z) {
@@ -224,7 +242,7 @@ WayOut way_out(const BarrierParameters& parameters, std::span<const field::Segme
     way.edge = i;
     way.row.normal = distance > kCoincident ? Vec2(there / distance) : outward(outline[i]);
   }
-  way.row.offset = escape_speed(parameters, way.distance_m + no_fly_radius(parameters), 0.0);
+  way.row.offset = escape_speed(parameters, way.distance_m + no_fly_radius(parameters, 0.0), 0.0);
   way.row.priority = Priority::kWall;
   return way;
 }

@@ -27,12 +27,22 @@ struct PairBarrier {
   double closing_speed_m_s = 0.0;  ///< how fast the other may come closer by itself
 };
 
-/// The barrier of separation_m between a controlled drone and another body.
+/// The barrier of separation_m between a controlled drone and another body, with all that is kept beyond it: margin_m,
+/// and the way that both may have gone since they were seen.
 [[nodiscard]] PairBarrier separation_barrier(const BarrierParameters& parameters, const Body& own, const Body& other);
 
-/// The barrier of contact_distance_m, with gamma_d(h) = h / hold, the loosest that sampling allows: it outranks
-/// separation and must not hold a drone a moment before it has to. It never asks for more than separation_barrier().
-[[nodiscard]] PairBarrier contact_barrier(const BarrierParameters& parameters, const Body& own, const Body& other);
+/// The barrier of separation_m alone: what must hold when there is no room for more. It never asks for more than
+/// separation_barrier().
+[[nodiscard]] PairBarrier bare_separation_barrier(const BarrierParameters& parameters, const Body& other);
+
+/// The barrier of contact_distance_m alone, with gamma_d(h) = h / hold, the loosest that sampling allows: it outranks
+/// separation and must not hold a drone a moment before it has to. It never asks for more than
+/// bare_separation_barrier().
+[[nodiscard]] PairBarrier contact_barrier(const BarrierParameters& parameters, const Body& other);
+
+/// What a drone keeps beyond R_wall and the no-fly buffer: margin_m (kLagAware), and the way that it may have gone
+/// since it was seen.
+[[nodiscard]] double wall_reserve(const BarrierParameters& parameters, const Body& own);
 
 /// 2 z_ij . u_i >= -gamma_d(h) + 2 |z_ij| closing_speed, divided by 2 |z_ij|; for h < 0 the speed of escape.
 /// `own` and `other` are the bodies' indices: they choose the direction where both points coincide.
@@ -45,10 +55,10 @@ struct PairBarrier {
 /// The distance from z to a wall of the field (0 left, 1 right, 2 bottom, 3 top): negative outside.
 [[nodiscard]] double wall_distance(const field::Field& field, const Vec2& z, int wall);
 
-/// (11): kPaper 2 d n.u >= -gamma_d(d^2 - R_wall^2); kLagAware n.u >= -gamma_d(d - R_wall - margin). Behind the wall
-/// the row points back inside. None beyond wall_range_m.
+/// (11), with R_wall longer by reserve_m: kPaper 2 d n.u >= -gamma_d(d^2 - R_wall^2); kLagAware n.u >= -gamma_d(d -
+/// R_wall). Behind the wall the row points back inside. None beyond wall_range_m.
 [[nodiscard]] std::optional<HalfPlane> wall_row(const BarrierParameters& parameters, const field::Field& field,
-                                                const Vec2& z, int wall);
+                                                const Vec2& z, int wall, double reserve_m, Priority priority);
 
 /// How many of the edges, from the first on, make one outline: each begins where the one before it ends, and the last
 /// ends where the first begins. Edges that do not close make outlines of one.
@@ -58,9 +68,9 @@ struct PairBarrier {
 [[nodiscard]] bool encloses(std::span<const field::Segment> outline, const Vec2& z);
 
 /// The row that keeps z away from one edge, from outside: like a wall at the edge's nearest point, with the radius
-/// no_fly_radius(). None beyond wall_range_m.
+/// no_fly_radius(reserve_m). None beyond wall_range_m.
 [[nodiscard]] std::optional<HalfPlane> edge_row(const BarrierParameters& parameters, const field::Segment& edge,
-                                                const Vec2& z);
+                                                const Vec2& z, double reserve_m, Priority priority);
 
 /// The row that leads out of a polygon that encloses z, by its nearest edge. Precondition: at least one edge, in the
 /// order of field::edges() (the inside on the left).
@@ -72,8 +82,8 @@ struct WayOut {
 [[nodiscard]] WayOut way_out(const BarrierParameters& parameters, std::span<const field::Segment> outline,
                              const Vec2& z);
 
-/// The distance of z from a no-fly edge at which h = 0: no_fly_buffer_m for kPaper, and for kLagAware
-/// sqrt((no_fly_buffer_m + margin_m)^2 + (lag u_max)^2).
-[[nodiscard]] double no_fly_radius(const BarrierParameters& parameters);
+/// The distance of z from a no-fly edge at which h = 0: no_fly_buffer_m + reserve_m for kPaper, and for kLagAware
+/// sqrt((no_fly_buffer_m + reserve_m)^2 + (lag u_max)^2).
+[[nodiscard]] double no_fly_radius(const BarrierParameters& parameters, double reserve_m);
 
 }  // namespace vigil::safety

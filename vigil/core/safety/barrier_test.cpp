@@ -66,7 +66,8 @@ TEST(Barrier, The_papers_wall_row_is_equation_11) {
   const field::Field field{3.0, 3.0};
   const double d = 0.3;
   const double h = d * d - 0.17 * 0.17;
-  const auto row = wall_row(parameters, field, Vec2(1.5, 3.0 - d), 3);
+  const auto row =
+      wall_row(parameters, field, Vec2(1.5, 3.0 - d), 3, wall_reserve(parameters, Body{}), Priority::kWall);
   ASSERT_TRUE(row);
   EXPECT_EQ(row->normal, Vec2(0.0, -1.0));
   EXPECT_NEAR(2.0 * d * row->offset, -10.0 * h * h * h, 1e-14);
@@ -83,7 +84,8 @@ TEST(Barrier, The_lag_aware_rows_are_linear_in_h_on_the_point_p_plus_lag_v) {
   const auto row = row_at(parameters, of_drones(parameters), d);
   ASSERT_TRUE(row);
   EXPECT_NEAR(2.0 * d * row->offset, -5.0 * h, 1e-15);
-  const auto wall = wall_row(parameters, {3.0, 3.0}, Vec2(0.2, 1.5), 0);
+  const auto wall =
+      wall_row(parameters, {3.0, 3.0}, Vec2(0.2, 1.5), 0, wall_reserve(parameters, Body{}), Priority::kWall);
   ASSERT_TRUE(wall);
   EXPECT_NEAR(wall->offset, -5.0 * (0.2 - 0.17 - 0.02), 1e-15);
 }
@@ -99,7 +101,8 @@ TEST(Barrier, However_large_the_gain_a_tick_uses_up_no_more_than_h) {
     ASSERT_TRUE(row);
     const double h = d * d - barrier.radius_m * barrier.radius_m;
     EXPECT_NEAR(2.0 * d * row->offset, -h / (2.0 * parameters.dt_s), 1e-12);
-    const auto wall = wall_row(parameters, {3.0, 3.0}, Vec2(0.171, 1.5), 0);
+    const auto wall =
+        wall_row(parameters, {3.0, 3.0}, Vec2(0.171, 1.5), 0, wall_reserve(parameters, Body{}), Priority::kWall);
     ASSERT_TRUE(wall);
     EXPECT_GE(wall->offset * parameters.dt_s, -0.001 - 1e-15);
   }
@@ -147,7 +150,10 @@ TEST(Barrier, Where_h_is_negative_the_row_asks_to_leave_at_a_linear_rate_of_at_m
     EXPECT_NEAR(row_at(parameters, barrier, barrier.radius_m - 0.01)->offset, 0.05, 1e-12);
     EXPECT_NEAR(row_at(parameters, barrier, 0.01)->offset, 0.15, 1e-15);
     const double wall = parameters.wall_distance_m + (parameters.kind == BarrierKind::kPaper ? 0.0 : 0.02);
-    EXPECT_NEAR(wall_row(parameters, {3.0, 3.0}, Vec2(wall - 0.01, 1.0), 0)->offset, 0.05, 1e-12);
+    EXPECT_NEAR(
+        wall_row(parameters, {3.0, 3.0}, Vec2(wall - 0.01, 1.0), 0, wall_reserve(parameters, Body{}), Priority::kWall)
+            ->offset,
+        0.05, 1e-12);
   }
 }
 
@@ -179,7 +185,7 @@ TEST(Barrier, A_contact_row_asks_for_no_more_than_the_separation_row_of_the_same
     for (const double speed : {-1.0, 0.0, 0.2, 0.5}) {
       const Body other = speed < 0.0 ? Body{} : stranger(speed);
       const PairBarrier separation = separation_barrier(parameters, Body{}, other);
-      const PairBarrier contact = contact_barrier(parameters, Body{}, other);
+      const PairBarrier contact = contact_barrier(parameters, other);
       for (double d = 0.0; d < 1.0; d += 0.001) {
         const auto firm = row_at(parameters, separation, d);
         const auto last = row_at(parameters, contact, d);
@@ -193,7 +199,8 @@ TEST(Barrier, A_contact_row_asks_for_no_more_than_the_separation_row_of_the_same
 
 TEST(Barrier, Outside_the_field_the_wall_points_back_inside) {
   for (const BarrierParameters& parameters : {paper(), lag_aware()}) {
-    const auto row = wall_row(parameters, {3.0, 2.0}, Vec2(3.5, 1.0), 1);
+    const auto row =
+        wall_row(parameters, {3.0, 2.0}, Vec2(3.5, 1.0), 1, wall_reserve(parameters, Body{}), Priority::kWall);
     ASSERT_TRUE(row);
     EXPECT_EQ(row->normal, Vec2(-1.0, 0.0));
     EXPECT_NEAR(row->offset, 0.15, 1e-15);
@@ -203,10 +210,10 @@ TEST(Barrier, Outside_the_field_the_wall_points_back_inside) {
 TEST(Barrier, Beyond_the_wall_range_there_is_no_row_unless_one_tick_could_reach_the_wall) {
   BarrierParameters parameters = paper();
   parameters.wall_range_m = 0.25;
-  EXPECT_TRUE(wall_row(parameters, {3.0, 3.0}, Vec2(0.24, 1.0), 0));
-  EXPECT_FALSE(wall_row(parameters, {3.0, 3.0}, Vec2(0.26, 1.0), 0));
+  EXPECT_TRUE(wall_row(parameters, {3.0, 3.0}, Vec2(0.24, 1.0), 0, wall_reserve(parameters, Body{}), Priority::kWall));
+  EXPECT_FALSE(wall_row(parameters, {3.0, 3.0}, Vec2(0.26, 1.0), 0, wall_reserve(parameters, Body{}), Priority::kWall));
   parameters.wall_range_m = 0.0;
-  EXPECT_TRUE(wall_row(parameters, {3.0, 3.0}, Vec2(0.172, 1.0), 0));
+  EXPECT_TRUE(wall_row(parameters, {3.0, 3.0}, Vec2(0.172, 1.0), 0, wall_reserve(parameters, Body{}), Priority::kWall));
 }
 
 field::Polygon arrow(double x, double y) {  // concave: a notch in its right side
@@ -251,7 +258,7 @@ TEST(Barrier, The_way_out_of_a_polygon_leads_through_its_nearest_edge) {
 
 TEST(Barrier, On_an_edge_the_row_points_out_of_the_polygon) {
   const std::vector<field::Segment> outline = field::edges(arrow(0.0, 0.0));
-  const auto row = edge_row(paper(), outline[0], Vec2(0.3, 0.0));
+  const auto row = edge_row(paper(), outline[0], Vec2(0.3, 0.0), 0.0, Priority::kWall);
   ASSERT_TRUE(row);
   EXPECT_LT((row->normal - Vec2(0.0, -1.0)).norm(), 1e-15);
 }

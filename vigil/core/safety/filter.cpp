@@ -10,6 +10,9 @@
 namespace vigil::safety {
 namespace {
 
+/// A violation smaller than this share of u_max is the solver's rounding.
+constexpr double kRounding = 1e-9;
+
 Vec2 nowhere() { return Vec2::Constant(std::numeric_limits<double>::quiet_NaN()); }
 
 bool is_finite(const Body& body) {
@@ -47,9 +50,19 @@ double range_of(const BarrierParameters& parameters, const PairBarrier& barrier)
   return std::max(*parameters.sensing_range_m + longer, barrier.radius_m + closing * parameters.dt_s);
 }
 
-/// The more speed a row asks for, the more it presses; bodies that would touch press most.
+/// The more speed a row asks for, the more it presses; what gives way later presses more.
 double pressure(const HalfPlane& row) {
-  return row.priority == Priority::kPhysicalRadius ? row.offset + 1.0 : row.offset;
+  return row.offset + static_cast<double>(kPriorities - 1 - static_cast<std::size_t>(row.priority));
+}
+
+/// Calls visit(outline, first) for every polygon among the edges: its edges, and the index of the first of them.
+template <typename Visit>
+void for_each_outline(std::span<const field::Segment> edges, const Visit& visit) {
+  for (std::size_t first = 0; first < edges.size();) {
+    const auto outline = edges.subspan(first, outline_length(edges.subspan(first)));
+    visit(outline, first);
+    first += outline.size();
+  }
 }
 
 }  // namespace
@@ -89,14 +102,20 @@ void Filter::steer(std::size_t own, std::span<const Body> bodies, std::span<cons
   report.input_rejected = !is_finite(bodies[own]) || !z.allFinite() || !u_nom.allFinite();
   if (report.input_rejected) return;
 
+  const double reserve_m = wall_reserve(parameters_, bodies[own]);
   row_count_ = 0;
   gather_pairs(own, z, bodies, report);
-  gather_walls(z, bodies[own].position, report);
-  gather_no_fly(z, bodies[own].position, no_fly, report);
+  gather_walls(z, bodies[own], reserve_m, Priority::kMargin, report);
+  gather_edges(z, bodies[own], no_fly, reserve_m, Priority::kMargin, report);
+  gather_ways_out(z, bodies[own], no_fly, report);
   PlanarQpSolution solution = solve_rows(u_nom);
   if (!solution.feasible) {
-    // A contact row asks for no more than the separation row of the same pair: it matters only now that this one gives.
-    gather_contacts(own, z, bodies, report);
+    // Noise alone can break a margin, and margins of two neighbours can contradict each other or a wall. They give way
+    // first: to the same rows without margins, which ask for less, so that they matter only now.
+    report.margin_used = true;
+    gather_bare_pairs(own, z, bodies, report);
+    gather_walls(z, bodies[own], 0.0, Priority::kWall, report);
+    gather_edges(z, bodies[own], no_fly, 0.0, Priority::kWall, report);
     solution = solve_rows(u_nom);
   }
   u = solution.u;
@@ -110,8 +129,10 @@ void Filter::write_report(const PlanarQpSolution& solution, const Vec2& u_nom, F
     ++report.holding_count;
   }
   report.speed_limited = solution.on_disk;
-  report.fallback = !solution.feasible;
-  report.violation_m_s = *std::max_element(solution.violation.begin(), solution.violation.end());
+  const auto margin = static_cast<std::size_t>(Priority::kMargin);
+  for (std::size_t priority = 0; priority < margin; ++priority)
+    report.violation_m_s = std::max(report.violation_m_s, solution.violation[priority]);
+  report.fallback = !solution.feasible && report.violation_m_s > kRounding * parameters_.u_max_m_s;
   report.correction_m_s = (solution.u - u_nom).stableNorm();
 }
 
@@ -134,52 +155,56 @@ void Filter::gather_pairs(std::size_t own, const Vec2& z, std::span<const Body> 
       report.nearest = index;
       report.nearest_distance_m = distance;
     }
-    const auto row = pair_row(parameters_, barrier, z_ij, static_cast<int>(own), index, Priority::kSeparation);
+    const auto row = pair_row(parameters_, barrier, z_ij, static_cast<int>(own), index, Priority::kMargin);
     if (row) add(*row, {RowKind::kNeighbour, index, distance}, report);
   });
 }
 
-void Filter::gather_contacts(std::size_t own, const Vec2& z, std::span<const Body> bodies,
-                             FilterReport& report) noexcept {
+void Filter::gather_bare_pairs(std::size_t own, const Vec2& z, std::span<const Body> bodies,
+                               FilterReport& report) noexcept {
   grid_.visit_near(z, reach_m_, [&](std::size_t other) {
-    if (other == own) return;
-    const PairBarrier barrier = contact_barrier(parameters_, bodies[own], bodies[other]);
     const Vec2 z_ij = z - points_[other];
-    if (z_ij.norm() > reach_m_) return;
-    const double distance = (bodies[own].position - bodies[other].position).norm();
+    if (other == own || z_ij.norm() > reach_m_) return;
     const auto index = static_cast<int>(other);
-    const auto row = pair_row(parameters_, barrier, z_ij, static_cast<int>(own), index, Priority::kPhysicalRadius);
-    if (row) add(*row, {RowKind::kNeighbour, index, distance}, report);
+    const double distance = (bodies[own].position - bodies[other].position).norm();
+    const auto add_row = [&](const PairBarrier& barrier, Priority priority) {
+      const auto row = pair_row(parameters_, barrier, z_ij, static_cast<int>(own), index, priority);
+      if (row) add(*row, {RowKind::kNeighbour, index, distance}, report);
+    };
+    add_row(bare_separation_barrier(parameters_, bodies[other]), Priority::kSeparation);
+    add_row(contact_barrier(parameters_, bodies[other]), Priority::kPhysicalRadius);
   });
 }
 
-void Filter::gather_walls(const Vec2& z, const Vec2& position, FilterReport& report) noexcept {
+void Filter::gather_walls(const Vec2& z, const Body& own, double reserve_m, Priority priority,
+                          FilterReport& report) noexcept {
   for (int wall = 0; wall < 4; ++wall) {
-    const auto row = wall_row(parameters_, field_, z, wall);
-    if (row) add(*row, {RowKind::kWall, wall, wall_distance(field_, position, wall)}, report);
+    const auto row = wall_row(parameters_, field_, z, wall, reserve_m, priority);
+    if (row) add(*row, {RowKind::kWall, wall, wall_distance(field_, own.position, wall)}, report);
   }
 }
 
-void Filter::gather_no_fly(const Vec2& z, const Vec2& position, std::span<const field::Segment> no_fly,
-                           FilterReport& report) noexcept {
-  std::size_t first = 0;
-  const auto add_edge = [&](const HalfPlane& row, std::size_t edge, double sign) {
-    const double distance = (position - field::nearest_point(no_fly[edge], position)).norm();
-    add(row, {RowKind::kNoFly, static_cast<int>(edge), sign * distance}, report);
-  };
-  while (first < no_fly.size()) {
-    const auto outline = no_fly.subspan(first, outline_length(no_fly.subspan(first)));
-    if (encloses(outline, z)) {
-      const WayOut way = way_out(parameters_, outline, z);
-      add_edge(way.row, first + way.edge, -1.0);
-    } else {
-      for (std::size_t i = 0; i < outline.size(); ++i) {
-        const auto row = edge_row(parameters_, outline[i], z);
-        if (row) add_edge(*row, first + i, 1.0);
-      }
+void Filter::gather_edges(const Vec2& z, const Body& own, std::span<const field::Segment> no_fly, double reserve_m,
+                          Priority priority, FilterReport& report) noexcept {
+  for_each_outline(no_fly, [&](std::span<const field::Segment> outline, std::size_t first) {
+    if (encloses(outline, z)) return;
+    for (std::size_t i = 0; i < outline.size(); ++i) {
+      const auto row = edge_row(parameters_, outline[i], z, reserve_m, priority);
+      if (!row) continue;
+      const double distance = (own.position - field::nearest_point(outline[i], own.position)).norm();
+      add(*row, {RowKind::kNoFly, static_cast<int>(first + i), distance}, report);
     }
-    first += outline.size();
-  }
+  });
+}
+
+void Filter::gather_ways_out(const Vec2& z, const Body& own, std::span<const field::Segment> no_fly,
+                             FilterReport& report) noexcept {
+  for_each_outline(no_fly, [&](std::span<const field::Segment> outline, std::size_t first) {
+    if (!encloses(outline, z)) return;
+    const WayOut way = way_out(parameters_, outline, z);
+    const double distance = (own.position - field::nearest_point(outline[way.edge], own.position)).norm();
+    add(way.row, {RowKind::kNoFly, static_cast<int>(first + way.edge), -distance}, report);
+  });
 }
 
 void Filter::add(const HalfPlane& half_plane, const HoldingRow& what, FilterReport& report) noexcept {

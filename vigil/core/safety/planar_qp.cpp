@@ -274,7 +274,7 @@ class Relaxation {
     const double length = std::sqrt(dot(across, across));
     const double middle = w_j * offset(i, p) - w_i * offset(j, p);
     if (!(std::abs(middle) < radius_ * length)) return {0.0, noise(i, i, j)};
-    const Chord alike({across / length, middle / length, Priority::kTracking}, radius_);
+    const Chord alike({across / length, middle / length, Priority::kMargin}, radius_);
     const std::size_t owned = w_i > 0.0 ? i : j;
     const double reach =
         dot(rows_[owned].normal, alike.base) + alike.half * std::abs(dot(rows_[owned].normal, alike.direction));

@@ -10,7 +10,12 @@ namespace vigil::safety {
 
 /// What gives way first when not everything can be had: the later, the earlier it is relaxed (control.md 5, fact 5).
 /// The disk |u| <= u_max is above all of them and never relaxed.
-enum class Priority : std::uint8_t { kPhysicalRadius, kSeparation, kWall, kTracking };
+enum class Priority : std::uint8_t {
+  kPhysicalRadius,  ///< bodies that would touch
+  kSeparation,      ///< R_s
+  kWall,            ///< R_wall and the no-fly buffer
+  kMargin           ///< what is kept beyond these for noise, delay and drones that are lost
+};
 inline constexpr std::size_t kPriorities = 4;
 
 /// The half-plane normal . u >= offset. The normal need not be of unit length (rows are normalised inside, so that a

@@ -148,7 +148,7 @@ TEST(PlanarQp, Rows_of_one_priority_share_the_violation_evenly) {
 TEST(PlanarQp, A_priority_that_can_be_had_is_not_relaxed_for_one_that_cannot) {
   const std::array rows{row(0.0, 1.0, 0.5, Priority::kPhysicalRadius),  // beyond the disk
                         row(1.0, 0.0, 0.1, Priority::kSeparation),  // impossible once the first is as near as can be
-                        row(0.0, -1.0, -0.3, Priority::kTracking)};
+                        row(0.0, -1.0, -0.3, Priority::kMargin)};
   const PlanarQpSolution solution = solve(Vec2::Zero(), rows, 0.3);
   EXPECT_NEAR(solution.violation[0], 0.2, 1e-12);
   EXPECT_NEAR(solution.violation[1], 0.1, 1e-6);  // the first leaves a point, and rounding a little more than that
