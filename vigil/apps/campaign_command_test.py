@@ -158,14 +158,15 @@ class Campaign(unittest.TestCase):
         safe = run(VIGIL, "campaign", LAB, "--out", self.folder / "safe", "--runs", 2, "--seconds", 1, "--json")
         self.assertEqual(safe.returncode, 0, safe.stderr)
         self.assertEqual(json.loads(safe.stdout), json.loads((self.folder / "safe" / "summary.json").read_text()))
-        # Drones that react a second late, under a barrier that knows no lag.
-        paper = ["safety.barrier=paper", "safety.lag_s=0", "safety.margin_m=0", "simulation.vehicle.command_delay_s=1"]
-        rash = run(VIGIL, "campaign", LAB, "--out", self.folder / "rash", "--runs", 2, "--seconds", 10, "--set", *paper,
+        # Drones that react a second late to a tracker that errs by 30 cm, under a barrier that knows of neither.
+        paper = ["safety.barrier=paper", "safety.lag_s=0", "safety.margin_m=0", "simulation.vehicle.command_delay_s=1",
+                 "simulation.tracker.noise_m=0.3"]
+        rash = run(VIGIL, "campaign", LAB, "--out", self.folder / "rash", "--runs", 4, "--seconds", 60, "--set", *paper,
                    "--vary", "starts")
         self.assertEqual(rash.returncode, 1, rash.stdout + rash.stderr)
         found = json.loads((self.folder / "rash" / "summary.json").read_text())
         self.assertGreater(found["violations"]["runs"], 0)
-        self.assertIn(f"{found['violations']['runs']} of 2", rash.stdout)
+        self.assertIn(f"{found['violations']['runs']} of 4", rash.stdout)
 
     def test_interrupting_keeps_the_runs_under_way_and_says_partial(self):
         out = self.folder / "out"
