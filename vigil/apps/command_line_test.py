@@ -15,6 +15,7 @@ import unittest
 
 VIGIL = sys.argv[1]
 MISSIONS = pathlib.Path(sys.argv[2])
+LONGER_THAN_A_HEADER = 1000  # bytes of a table: a tick has been flown
 PAPER = str(MISSIONS / "paper.yaml")
 
 
@@ -181,7 +182,7 @@ class CommandLine(unittest.TestCase):
                                       stderr=subprocess.PIPE, text=True)
             drones = out / "recording" / "drones.csv"
             deadline = time.monotonic() + 60
-            while not (drones.exists() and drones.stat().st_size > 0):
+            while not (drones.exists() and drones.stat().st_size > LONGER_THAN_A_HEADER):
                 self.assertLess(time.monotonic(), deadline)
                 self.assertIsNone(flight.poll())
             flight.send_signal(signal_number)
