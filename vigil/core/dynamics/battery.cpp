@@ -61,6 +61,14 @@ bool can_deliver(const Battery& battery, const BatteryState& state, double power
   return state.charge > 0.0 && voltage >= battery.cells * kEmptyCellVoltage;
 }
 
+double endurance_s(const Battery& battery, double power_w) {
+  constexpr double kLongest = 86'400.0;
+  double flown_s = 0.0;
+  for (BatteryState state; flown_s < kLongest && can_deliver(battery, state, power_w); flown_s += 1.0)
+    state = after_power(battery, state, power_w, 1.0);
+  return flown_s;
+}
+
 BatteryState after_current(const Battery& battery, const BatteryState& state, double current_a, double dt_s) noexcept {
   const double drawn = current_a * dt_s / (3600.0 * battery.capacity_ah * battery.health);
   return {std::clamp(state.charge - drawn, 0.0, 1.0)};

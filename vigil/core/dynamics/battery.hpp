@@ -40,6 +40,10 @@ struct BatteryState {
 /// power, V0 / (2 R), if the battery cannot deliver P.
 [[nodiscard]] double current_for(const Battery& battery, const BatteryState& state, double power_w) noexcept;
 
+/// How long the full battery keeps a power up, to a second; at most a day. Steps through the whole discharge: for
+/// setup.
+[[nodiscard]] double endurance_s(const Battery& battery, double power_w);
+
 /// Whether the battery still delivers power_w at kEmptyCellVoltage or more.
 [[nodiscard]] bool can_deliver(const Battery& battery, const BatteryState& state, double power_w) noexcept;
 

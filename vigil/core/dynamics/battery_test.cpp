@@ -7,17 +7,6 @@
 namespace vigil::dynamics {
 namespace {
 
-/// Seconds that a full battery keeps up a power.
-double endurance(const Battery& battery, double power_w) {
-  BatteryState state;
-  double t = 0.0;
-  while (can_deliver(battery, state, power_w)) {
-    state = after_power(battery, state, power_w, 0.5);
-    t += 0.5;
-  }
-  return t;
-}
-
 TEST(Battery, Open_voltage_rises_with_the_charge_and_gives_it_back) {
   for (int i = 0; i < 1000; ++i) {
     const double charge = i / 1000.0;
@@ -85,14 +74,21 @@ TEST(Battery, Power_drawn_in_many_steps_or_in_one_costs_the_same_charge) {
 }
 
 TEST(Battery, Hovering_lasts_as_long_as_it_does) {
-  EXPECT_NEAR(endurance(crazyflie_battery(), kCrazyflieHoverPower), 7.0 * 60.0, 10.0);
-  EXPECT_NEAR(endurance(outdoor_battery(), kOutdoorHoverPower), 20.0 * 60.0, 30.0);
+  EXPECT_NEAR(endurance_s(crazyflie_battery(), kCrazyflieHoverPower), 7.0 * 60.0, 10.0);
+  EXPECT_NEAR(endurance_s(outdoor_battery(), kOutdoorHoverPower), 20.0 * 60.0, 30.0);
+}
+
+TEST(Battery, Twice_the_capacity_lasts_twice_as_long) {
+  Battery large = crazyflie_battery();
+  large.capacity_ah *= 2.0;
+  EXPECT_NEAR(endurance_s(large, kCrazyflieHoverPower), 2.0 * endurance_s(crazyflie_battery(), kCrazyflieHoverPower),
+              2.0);
 }
 
 TEST(Battery, Age_shortens_the_flight_by_more_than_the_capacity_lost) {
   Battery old = outdoor_battery();
   old.health = 0.7;
-  EXPECT_LT(endurance(old, kOutdoorHoverPower), 0.7 * endurance(outdoor_battery(), kOutdoorHoverPower));
+  EXPECT_LT(endurance_s(old, kOutdoorHoverPower), 0.7 * endurance_s(outdoor_battery(), kOutdoorHoverPower));
 }
 
 }  // namespace

@@ -76,6 +76,21 @@ TEST(VehicleModel, In_the_plane_the_simple_kinds_are_the_planar_vehicle) {
   }
 }
 
+TEST(VehicleModel, Its_horizontal_loop_alone_moves_it_in_the_plane) {
+  const Vec2 u(2.0, -1.0);
+  const Vec2 push(0.3, 0.1);
+  for (const VehicleModel& model : every_model()) {
+    VehicleState whole{Vec3(1, 2, 3), Vec3(-1, 0.5, 0.2), Vec3(0.1, 0.2, -0.3), Vec3(0.1, 0, 0)};
+    PlanarLoopState plane{Vec2(1, 2), Vec2(-1, 0.5), Vec2(0.1, 0.2), Vec2(0.1, 0)};
+    for (int i = 0; i < 50; ++i) {
+      whole = advance(model, whole, Vec3(u.x(), u.y(), 0.0), 0.02, Vec3(push.x(), push.y(), 0.0));
+      plane = advance(model.horizontal, plane, u, 0.02, push);
+    }
+    EXPECT_EQ(plane.position, whole.position.head<2>());
+    EXPECT_EQ(plane.velocity, whole.velocity.head<2>());
+  }
+}
+
 TEST(VehicleModel, Wind_that_pushes_for_long_moves_a_vehicle_with_an_integral_no_more) {
   VehicleState state;
   for (int i = 0; i < 1200; ++i) state = advance(px4_vehicle(), state, Vec3::Zero(), 0.1, Vec3(0.5, 0.0, 0.0));

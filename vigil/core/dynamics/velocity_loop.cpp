@@ -39,4 +39,11 @@ AxisState advance(const VelocityLoop& loop, const AxisState& state, double comma
   return {after.p.x(), after.v.x(), after.a.x(), after.i.x()};
 }
 
+PlanarLoopState advance(const VelocityLoop& loop, const PlanarLoopState& state, const Vec2& command_m_s, double dt_s,
+                        const Vec2& push_m_s2) noexcept {
+  const loop_steps::State<2> before{state.position, state.velocity, state.acceleration, state.correction};
+  const loop_steps::State<2> after = loop_steps::advanced<2>(loop, before, command_m_s, push_m_s2, dt_s);
+  return {after.p, after.v, after.a, after.i};
+}
+
 }  // namespace vigil::dynamics

@@ -2,6 +2,8 @@
 
 #include <limits>
 
+#include "vigil/core/field/vec2.hpp"
+
 namespace vigil::dynamics {
 
 /// How a vehicle's velocity v follows the commanded velocity u along one axis, or in the plane (u, v, a, i then are
@@ -52,5 +54,17 @@ struct AxisState {
 /// dt_s >= 0. An immediate loop ignores the push. See advance(VehicleModel) for the accuracy.
 [[nodiscard]] AxisState advance(const VelocityLoop& loop, const AxisState& state, double command_m_s, double dt_s,
                                 double push_m_s2 = 0.0) noexcept;
+
+/// A loop's state in the plane; its limits bound the lengths of the vectors.
+struct PlanarLoopState {
+  Vec2 position = Vec2::Zero();
+  Vec2 velocity = Vec2::Zero();
+  Vec2 acceleration = Vec2::Zero();
+  Vec2 correction = Vec2::Zero();
+};
+
+/// The same for x and y together: what advance(VehicleModel) does in the plane.
+[[nodiscard]] PlanarLoopState advance(const VelocityLoop& loop, const PlanarLoopState& state, const Vec2& command_m_s,
+                                      double dt_s, const Vec2& push_m_s2 = Vec2::Zero()) noexcept;
 
 }  // namespace vigil::dynamics
