@@ -6,10 +6,36 @@
 namespace vigil::apps {
 namespace {
 
-sim::VehicleParameters vehicle_parameters(const runtime::VehicleSection& vehicle) {
+using dynamics::VehicleKind;
+
+bool is_autopilot(VehicleKind kind) { return kind != VehicleKind::kIdeal && kind != VehicleKind::kFirstOrderLag; }
+
+sim::MotionModel motion_model(const runtime::Mission& mission) {
+  const runtime::VehicleSection& vehicle = mission.simulation.vehicle;
+  if (is_autopilot(vehicle.model)) return runtime::vehicle_model(mission).horizontal;
+  return dynamics::PlanarVehicle{.lag_s = vehicle.lag_s, .acceleration_limit_m_s2 = vehicle.acceleration_limit_m_s2};
+}
+
+/// The model's battery; one that lasts for another time has another capacity, all else the same.
+sim::BatteryParameters battery_parameters(const runtime::BatterySection& section, VehicleKind kind) {
+  const bool is_outdoor = kind == VehicleKind::kArduCopter || kind == VehicleKind::kPx4;
+  sim::BatteryParameters parameters{
+      .battery = is_outdoor ? dynamics::outdoor_battery() : dynamics::crazyflie_battery(),
+      .hover_power_w = is_outdoor ? dynamics::kOutdoorHoverPower : dynamics::kCrazyflieHoverPower,
+      .start = section.start};
+  if (section.endurance_s)
+    parameters.battery.capacity_ah *=
+        *section.endurance_s / dynamics::endurance_s(parameters.battery, parameters.hover_power_w);
+  parameters.battery.health = section.health;
+  return parameters;
+}
+
+sim::VehicleParameters vehicle_parameters(const runtime::Mission& mission) {
+  const runtime::VehicleSection& vehicle = mission.simulation.vehicle;
   sim::VehicleParameters parameters;
-  if (vehicle.model == runtime::VehicleModel::kFirstOrderLag)
-    parameters.motion = {.lag_s = vehicle.lag_s, .acceleration_limit_m_s2 = vehicle.acceleration_limit_m_s2};
+  parameters.motion = motion_model(mission);
+  parameters.failsafe = dynamics::failsafe_of(vehicle.model);
+  if (mission.simulation.battery) parameters.battery = battery_parameters(*mission.simulation.battery, vehicle.model);
   parameters.command_delay_s = vehicle.command_delay_s;
   parameters.altitude_m = vehicle.altitude_m;
   parameters.take_off_s = vehicle.take_off_s;
@@ -18,22 +44,50 @@ sim::VehicleParameters vehicle_parameters(const runtime::VehicleSection& vehicle
   return parameters;
 }
 
-sim::TrackerParameters tracker_parameters(const runtime::TrackerSection& tracker) {
+double per_tick(const std::optional<double>& rate_hz, double dt_s) { return rate_hz ? *rate_hz * dt_s : 1.0; }
+
+sim::TrackerParameters tracker_parameters(const runtime::TrackerSection& tracker, double dt_s) {
   return {.noise_m = tracker.noise_m,
           .velocity_noise_m_s = tracker.velocity_noise_m_s,
           .delay_s = tracker.delay_s,
+          .jitter_s = tracker.jitter_s,
+          .measurements_per_tick = per_tick(tracker.rate_hz, dt_s),
           .dropouts_per_min = tracker.dropouts_per_min,
-          .dropout_s = tracker.dropout_s};
+          .dropout_s = tracker.dropout_s,
+          .bias = {.sigma = tracker.bias_m, .time_s = tracker.bias_time_s}};
+}
+
+sim::LinkParameters link_parameters(const runtime::LinkSection& link, double dt_s) {
+  return {.packets = dynamics::bursty_link(link.loss, link.burst_packets, link.delay_s, link.jitter_s),
+          .packets_per_tick = per_tick(link.rate_hz, dt_s)};
+}
+
+dynamics::Wind wind(const runtime::Mission& mission) {
+  const runtime::WindSection& section = mission.simulation.wind;
+  const Vec2 mean = runtime::world_frame(mission).vector_to_field(section.mean_m_s);
+  dynamics::Wind wind;
+  wind.mean_m_s = Vec3(mean.x(), mean.y(), 0.0);
+  wind.gusts = {.sigma = section.gust_m_s, .time_s = section.gust_time_s};
+  wind.drag_per_s = section.drag_per_s;
+  wind.rejection_time_s = section.rejection_time_s;
+  return wind;
 }
 
 }  // namespace
 
 std::unique_ptr<runtime::VirtualFleet> simulated_fleet(const runtime::Mission& mission) {
-  const sim::FleetParameters parameters{.vehicle = vehicle_parameters(mission.simulation.vehicle),
-                                        .tracker = tracker_parameters(mission.simulation.tracker),
-                                        .dt_s = 1.0 / mission.control.rate_hz,
-                                        .seed = mission.simulation.seed,
-                                        .starts_flying = mission.simulation.start == runtime::StartState::kFlying};
+  const runtime::SimulationSection& simulation = mission.simulation;
+  const double dt_s = runtime::tick_s(mission);
+  const sim::FleetParameters parameters{
+      .vehicle = vehicle_parameters(mission),
+      .tracker = tracker_parameters(simulation.tracker, dt_s),
+      .confusion = {.swaps_per_h = simulation.tracker.swaps_per_h, .swap_s = simulation.tracker.swap_s},
+      .link = link_parameters(simulation.link, dt_s),
+      .wind = wind(mission),
+      .positions_over_link = simulation.tracker.over_link,
+      .dt_s = dt_s,
+      .seed = simulation.seed,
+      .starts_flying = simulation.start == runtime::StartState::kFlying};
   return std::make_unique<sim::SimulatedFleet>(parameters, runtime::starts_in_field(mission));
 }
 

@@ -115,7 +115,7 @@ class Incidents {
     const double length_s = to_centiseconds(between(random_, kLeastLengthS, kMostLengthS));
     const Vec2 velocity = random_velocity(random_, mission_.control.speed_limit_m_s);
     if (event.what == EventKind::kOverride) event.velocity_m_s = velocity;
-    if (event.what == EventKind::kLoseTracking) event.for_s = length_s;
+    if (event.what == EventKind::kLoseTracking || event.what == EventKind::kLoseLink) event.for_s = length_s;
     add(event);
     if (const auto remedy = remedy_of(event.what)) add_remedy(event, *remedy, length_s);
   }

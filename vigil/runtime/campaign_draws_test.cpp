@@ -113,9 +113,10 @@ TEST_F(Draws, Targets_keep_their_numbers_and_lie_where_they_can_be_seen) {
 }
 
 TEST_F(Draws, Incidents_are_in_order_within_the_mission_and_of_the_kinds_asked_for) {
-  const std::vector<EventKind> kinds{EventKind::kOverride, EventKind::kHold, EventKind::kLoseTracking};
-  const std::set<EventKind> expected{EventKind::kOverride, EventKind::kGiveBack, EventKind::kHold, EventKind::kResume,
-                                     EventKind::kLoseTracking};
+  const std::vector<EventKind> kinds{EventKind::kOverride, EventKind::kHold, EventKind::kLoseTracking,
+                                     EventKind::kLoseLink};
+  const std::set<EventKind> expected{EventKind::kOverride, EventKind::kGiveBack,     EventKind::kHold,
+                                     EventKind::kResume,   EventKind::kLoseTracking, EventKind::kLoseLink};
   std::set<EventKind> seen;
   RandomStream random(1, 0, 0);
   const std::vector<EventEntry> events = draw_incidents(mission_, 100, kinds, random);
@@ -125,7 +126,7 @@ TEST_F(Draws, Incidents_are_in_order_within_the_mission_and_of_the_kinds_asked_f
     EXPECT_GE(event.at_s, 0.0);
     EXPECT_LE(event.at_s, 60.0);
     EXPECT_LE(event.velocity_m_s.norm(), 0.301);
-    EXPECT_EQ(event.for_s > 0.0, event.what == EventKind::kLoseTracking);
+    EXPECT_EQ(event.for_s > 0.0, event.what == EventKind::kLoseTracking || event.what == EventKind::kLoseLink);
   }
   EXPECT_EQ(seen, expected);
 }

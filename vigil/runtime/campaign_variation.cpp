@@ -34,15 +34,17 @@ YamlNode scalar(std::string_view text) {
   return node;
 }
 
-/// What may go wrong in a run.
+/// What may go wrong in a run; and, where it is not said what, the first six of it.
 constexpr std::array kFaultKinds{EventKind::kLand,         EventKind::kFail, EventKind::kOverride,
-                                 EventKind::kLoseTracking, EventKind::kHold, EventKind::kMarkFailed};
+                                 EventKind::kLoseTracking, EventKind::kHold, EventKind::kMarkFailed,
+                                 EventKind::kLoseLink};
+constexpr std::size_t kUsualFaultKinds = 6;
 
 EventKind parse_fault(std::string_view text, std::string_view name) {
   const auto* const found = std::ranges::find(kFaultKinds, name, [](EventKind kind) { return name_of(kind); });
   if (found != kFaultKinds.end()) return *found;
   refuse(text, fmt::format("has an unknown fault {}", name),
-         "must be of land, fail, override, lose_tracking, hold and mark_failed, with commas between them");
+         "must be of land, fail, override, lose_tracking, lose_link, hold and mark_failed, with commas between them");
 }
 
 /// The parts of `list` between the separators.
@@ -64,7 +66,7 @@ Variation parse_faults(std::string_view text, std::string_view what) {
   Variation variation{.text = std::string(text), .kind = VariationKind::kFaults, .key = {}, .choices = {}, .kinds = {}};
   variation.incidents = static_cast<std::size_t>(parsed.value);
   if (colon == std::string_view::npos)
-    variation.kinds.assign(kFaultKinds.begin(), kFaultKinds.end());
+    variation.kinds.assign(kFaultKinds.begin(), kFaultKinds.begin() + kUsualFaultKinds);
   else
     for (const std::string_view name : split(what.substr(colon + 1), ','))
       variation.kinds.push_back(parse_fault(text, name));

@@ -18,6 +18,7 @@ TEST(CampaignVariation, Faults_take_a_number_and_their_kinds) {
   EXPECT_EQ(parse_variation("faults").kinds.size(), 6U);
   EXPECT_EQ(parse_variation("faults=7").incidents, 7U);
   const std::vector<EventKind> expected{EventKind::kFail, EventKind::kLand};
+  EXPECT_EQ(parse_variation("faults=2:lose_link").kinds, std::vector<EventKind>{EventKind::kLoseLink});
   EXPECT_EQ(parse_variation("faults=2:fail,land").kinds, expected);
 }
 

@@ -36,6 +36,7 @@ class Course {
       case EventKind::kOverride:
       case EventKind::kGiveBack:
       case EventKind::kLoseTracking:
+      case EventKind::kLoseLink:
         return check_drone(event);
       case EventKind::kAddTarget:
         return add_target(event);

@@ -50,6 +50,8 @@ class VirtualFleet : public Fleet {
   virtual void take_over(swarm::DroneId drone, const Vec2& velocity) noexcept = 0;  ///< a pilot flies it so
   virtual void give_back(swarm::DroneId drone) noexcept = 0;
   virtual void hide(swarm::DroneId drone, double for_s) noexcept = 0;  ///< the tracker does not see it for so long
+  /// Nothing passes between it and the ground for so long, in either direction.
+  virtual void cut_link(swarm::DroneId drone, double for_s) noexcept = 0;
 };
 
 }  // namespace vigil::runtime

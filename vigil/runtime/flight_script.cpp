@@ -108,7 +108,8 @@ DueEvents FlightScript::play(double time_s) {
   const std::vector<EventEntry>& events = mission_.simulation.events;
   for (; next_ < events.size() && events[next_].at_s <= time_s + kRounding; ++next_) {
     const EventEntry& event = events[next_];
-    const bool is_world = event.what == EventKind::kFail || event.what == EventKind::kLoseTracking;
+    const bool is_world =
+        event.what == EventKind::kFail || event.what == EventKind::kLoseTracking || event.what == EventKind::kLoseLink;
     due.log.push_back({time_s, is_world ? "world" : "mission", std::string(name_of(event.what)), event.drone, {}});
     play_event(event, due);
   }
@@ -144,6 +145,9 @@ void FlightScript::play_for_drones(const EventEntry& event, DueEvents& due) {
         break;
       case EventKind::kLoseTracking:
         fleet_.hide(drone, event.for_s);
+        break;
+      case EventKind::kLoseLink:
+        fleet_.cut_link(drone, event.for_s);
         break;
       default:
         break;

@@ -19,11 +19,13 @@ class NotingFleet final : public VirtualFleet {
   void take_over(swarm::DroneId, const Vec2& velocity) noexcept override { taken_velocity = velocity; }
   void give_back(swarm::DroneId) noexcept override { ++given_back; }
   void hide(swarm::DroneId, double for_s) noexcept override { hidden_s = for_s; }
+  void cut_link(swarm::DroneId, double for_s) noexcept override { cut_s = for_s; }
 
   std::vector<std::size_t> failed;
   Vec2 taken_velocity = Vec2::Zero();
   int given_back = 0;
   double hidden_s = 0.0;
+  double cut_s = 0.0;
 };
 
 EventEntry event(double at_s, EventKind what, const std::string& drone = "") {
@@ -77,10 +79,13 @@ TEST_F(FlightScriptTest, All_means_every_drone) {
 TEST_F(FlightScriptTest, What_the_world_does_reaches_the_fleet_and_not_the_controller) {
   EventEntry lose = event(2.0, EventKind::kLoseTracking, "cf1");
   lose.for_s = 3.0;
-  const DueEvents due = play({event(1.0, EventKind::kFail, "cf2"), lose});
+  EventEntry out_of_reach = event(3.0, EventKind::kLoseLink, "cf1");
+  out_of_reach.for_s = 4.0;
+  const DueEvents due = play({event(1.0, EventKind::kFail, "cf2"), lose, out_of_reach});
   EXPECT_TRUE(due.commands.empty());
   EXPECT_EQ(fleet.failed, std::vector<std::size_t>{1});
   EXPECT_EQ(fleet.hidden_s, 3.0);
+  EXPECT_EQ(fleet.cut_s, 4.0);
 }
 
 TEST_F(FlightScriptTest, A_pilot_takes_the_vehicle_and_the_controller_is_told) {

@@ -23,6 +23,7 @@ class FlowWriter final : public DescriptionVisitor {
   void number(const Key& key, const Range& /*range*/, std::optional<double>& value) override {
     if (value) add(key, fmt::format("{}", *value));
   }
+  void truth(const Key& key, bool& value) override { add(key, value ? "true" : "false"); }
   void text(const Key& key, TextRule /*rule*/, std::string& value) override { add(key, text_in_yaml(value)); }
   void point(const Key& key, const Range& /*range*/, Vec2& value) override { add(key, in_flow(value)); }
   void points(const Key& key, const Range& /*range*/, const Count& /*count*/, std::vector<Vec2>& value) override {

@@ -164,6 +164,26 @@ void add_broken_structures(std::vector<MalformedMission>& table) {
       "must be in [0, 1000000] s");
   add("a battery of 20 percent in percent", but("battery_reserve: 0.2", "battery_reserve: 20"),
       "health.battery_reserve", "must be in [0, 0.95]");
+  add("an unknown vehicle", but("model: first_order_lag", "model: crazyfly"), "simulation.vehicle.model",
+      "did you mean crazyflie?");
+  add("a link that loses everything", but("duration_s: 60", "duration_s: 60\n  link: {loss: 1}"),
+      "simulation.link.loss", "must be in [0, 0.99]");
+  add("a negative jitter", but("duration_s: 60", "duration_s: 60\n  link: {jitter_s: -0.1}"),
+      "simulation.link.jitter_s", "must be in [0, 10] s");
+  add("a tracker that never measures", but("duration_s: 60", "duration_s: 60\n  tracker: {rate_hz: 0}"),
+      "simulation.tracker.rate_hz", "must be in [0.01, 1000] Hz");
+  add("a word for a truth value", but("duration_s: 60", "duration_s: 60\n  tracker: {over_link: yes}"),
+      "simulation.tracker.over_link", "is no truth value; must be true or false");
+  add("a truth value in quotes", but("duration_s: 60", "duration_s: 60\n  tracker: {over_link: \"true\"}"),
+      "simulation.tracker.over_link", "must be true or false");
+  add("an empty battery", but("duration_s: 60", "duration_s: 60\n  battery: {start: 0}"), "simulation.battery.start",
+      "must be in (0, 1]");
+  add("a battery without its keys", but("duration_s: 60", "duration_s: 60\n  battery:"), "simulation.battery",
+      "must be a section");
+  add("a wind without a direction", but("duration_s: 60", "duration_s: 60\n  wind: {mean_m_s: 4}"),
+      "simulation.wind.mean_m_s", "must be [x, y]");
+  add("gusts that last no time", but("duration_s: 60", "duration_s: 60\n  wind: {gust_time_s: 0}"),
+      "simulation.wind.gust_time_s", "must be in [0.01, 3600] s");
 }
 
 void add_contradictions(std::vector<MalformedMission>& table) {
@@ -190,6 +210,22 @@ void add_contradictions(std::vector<MalformedMission>& table) {
   add("a lag for the paper's barrier", but("barrier: lag_aware", "barrier: paper"), "safety.lag_s", "must be 0 there");
   add("a lag for the ideal vehicle", but("{model: first_order_lag, lag_s: 0.1}", "{model: ideal, lag_s: 0.1}"),
       "simulation.vehicle.lag_s", "has no meaning");
+  add("a lag for a recorded vehicle", but("{model: first_order_lag, lag_s: 0.1}", "{model: crazyflie, lag_s: 0.1}"),
+      "simulation.vehicle.lag_s", "has no meaning for the model `crazyflie`");
+  add("an acceleration limit for a recorded vehicle",
+      but("{model: first_order_lag, lag_s: 0.1}", "{model: px4, acceleration_limit_m_s2: 2}"),
+      "simulation.vehicle.acceleration_limit_m_s2", "has no meaning for the model `px4`");
+  add("gusts for the ideal vehicle",
+      but("{model: first_order_lag, lag_s: 0.1}", "{model: ideal}\n  wind: {gust_m_s: 1}"), "simulation.wind.gust_m_s",
+      "has no meaning for the model `ideal`");
+  add("a wind for the ideal vehicle",
+      but("{model: first_order_lag, lag_s: 0.1}", "{model: ideal}\n  wind: {mean_m_s: [1, 0]}"),
+      "simulation.wind.mean_m_s", "feels no push");
+  add("bursts too short for their loss", but("duration_s: 60", "duration_s: 60\n  link: {loss: 0.9, burst_packets: 3}"),
+      "simulation.link.burst_packets", "must be at least loss / (1 - loss), 9 packets");
+  add("satellites that confuse bodies",
+      but("duration_s: 60", "duration_s: 60\n  tracker: {over_link: true, swaps_per_h: 2}"),
+      "simulation.tracker.swaps_per_h", "must be left out with `over_link: true`");
   add("no lag for the lagging vehicle", but(", lag_s: 0.1}", "}"), "simulation.vehicle.lag_s", "must be above 0 s");
   add("flying below the landed height", but("{model: first", "{altitude_m: 0.05, model: first"),
       "health.landed_height_m", "must be below simulation.vehicle.altitude_m");

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "vigil/core/dynamics/vehicle_model.hpp"
 #include "vigil/core/ergodic/controller_kind.hpp"
 #include "vigil/core/ergodic/coverage_statistics.hpp"
 #include "vigil/core/field/field.hpp"
@@ -128,13 +129,11 @@ struct SensorSection {
   friend bool operator==(const SensorSection&, const SensorSection&) = default;
 };
 
-enum class VehicleModel : std::uint8_t { kIdeal, kFirstOrderLag };
-
 struct VehicleSection {
-  VehicleModel model = VehicleModel::kIdeal;
+  dynamics::VehicleKind model = dynamics::VehicleKind::kIdeal;
   double lag_s = 0.0;                             ///< first_order_lag: v' = (u - v)/lag
   std::optional<double> acceleration_limit_m_s2;  ///< first_order_lag: |v'| at most this; none: no limit
-  double command_delay_s = 0.0;                   ///< from the controller's decision to the vehicle's reaction
+  double command_delay_s = 0.0;                   ///< from decision to reaction, beside link and the model's dead time
   double altitude_m = 1.0;                        ///< where it flies
   double take_off_s = 2.0;                        ///< from the ground to there
   double landing_s = 2.0;                         ///< from there to the ground
@@ -143,12 +142,46 @@ struct VehicleSection {
 };
 
 struct TrackerSection {
+  std::optional<double> rate_hz;    ///< measurements; default every tick
   double noise_m = 0.0;             ///< standard deviation per axis
   double velocity_noise_m_s = 0.0;  ///< standard deviation per axis
-  double delay_s = 0.0;             ///< age of a measurement when it arrives
+  double bias_m = 0.0;              ///< standard deviation per axis of a slowly wandering error
+  double bias_time_s = 60.0;        ///< its correlation time
+  double delay_s = 0.0;             ///< age of a measurement when it arrives, at least
+  double jitter_s = 0.0;            ///< on top of it, uniform
   double dropouts_per_min = 0.0;    ///< per drone, on average
   double dropout_s = 0.5;           ///< mean length of one
+  double swaps_per_h = 0.0;         ///< of two bodies, in the whole swarm, on average
+  double swap_s = 1.0;              ///< length of one
+  bool over_link = false;           ///< vehicles find their own position and send it
   friend bool operator==(const TrackerSection&, const TrackerSection&) = default;
+};
+
+/// Moving air, as core/dynamics/wind.hpp has it.
+struct WindSection {
+  Vec2 mean_m_s = Vec2::Zero();  ///< world frame
+  double gust_m_s = 0.0;         ///< standard deviation per axis
+  double gust_time_s = 3.0;      ///< their correlation time
+  double drag_per_s = 0.3;
+  double rejection_time_s = 1.5;
+  friend bool operator==(const WindSection&, const WindSection&) = default;
+};
+
+/// The radio, each direction of each drone by itself.
+struct LinkSection {
+  double loss = 0.0;           ///< share of packets
+  double burst_packets = 1.0;  ///< mean length of a loss
+  double delay_s = 0.0;
+  double jitter_s = 0.0;          ///< on top of the delay, uniform
+  std::optional<double> rate_hz;  ///< packets of each direction; default every tick
+  friend bool operator==(const LinkSection&, const LinkSection&) = default;
+};
+
+struct BatterySection {
+  double start = 1.0;                 ///< share of what it can hold
+  double health = 1.0;                ///< share of a new one's capacity
+  std::optional<double> endurance_s;  ///< of a full new one; default the model's
+  friend bool operator==(const BatterySection&, const BatterySection&) = default;
 };
 
 enum class EventKind : std::uint8_t {
@@ -162,6 +195,7 @@ enum class EventKind : std::uint8_t {
   kOverride,       ///< a pilot takes it over and flies velocity_m_s
   kGiveBack,       ///< the pilot gives it back
   kLoseTracking,   ///< the tracker does not see it for for_s
+  kLoseLink,       ///< nothing passes between it and the ground for for_s
   kAddTarget,      ///< cluster (made where new), point_m
   kMoveTarget,     ///< cluster, target (counted from 1), point_m
   kRemoveTarget,   ///< cluster, target (counted from 1); the last one removes the cluster
@@ -191,6 +225,9 @@ struct SimulationSection {
   std::uint64_t seed = 1;
   StartState start = StartState::kFlying;  ///< grounded: an operator's take_off event brings them up
   VehicleSection vehicle;
+  std::optional<BatterySection> battery;  ///< none: no battery is simulated, and none reported
+  WindSection wind;
+  LinkSection link;
   TrackerSection tracker;
   std::vector<EventEntry> events;  ///< in the order of at_s
   friend bool operator==(const SimulationSection&, const SimulationSection&) = default;

@@ -133,38 +133,6 @@ void check_ranges(const Mission& mission, const MissionSource& source) {
   }
 }
 
-void check_vehicle(const Mission& mission, const MissionSource& source) {
-  const VehicleSection& vehicle = mission.simulation.vehicle;
-  const auto refuse_for_ideal = [&](const std::string& key) {
-    source.refuse({.place = "",
-                   .key = key,
-                   .value = "",
-                   .problem = "has no meaning for the model `ideal`",
-                   .valid = "must be left out there",
-                   .advice = "take `model: first_order_lag`, or leave it out"});
-  };
-  if (vehicle.model == VehicleModel::kIdeal && vehicle.lag_s > 0.0) refuse_for_ideal("simulation.vehicle.lag_s");
-  if (vehicle.model == VehicleModel::kIdeal && vehicle.acceleration_limit_m_s2) {
-    refuse_for_ideal("simulation.vehicle.acceleration_limit_m_s2");
-  }
-  if (vehicle.model == VehicleModel::kFirstOrderLag && vehicle.lag_s == 0.0) {
-    source.refuse({.place = "",
-                   .key = "simulation.vehicle.lag_s",
-                   .value = fmt::format("{:.6g}", vehicle.lag_s),
-                   .problem = "is no time constant",
-                   .valid = "must be above 0 s for the model `first_order_lag`",
-                   .advice = "give the vehicle's time constant, or take `model: ideal`"});
-  }
-  if (mission.health.landed_height_m >= vehicle.altitude_m) {
-    source.refuse({.place = "",
-                   .key = "health.landed_height_m",
-                   .value = fmt::format("{:.6g}", mission.health.landed_height_m),
-                   .problem = "would take flying drones for landed ones",
-                   .valid = fmt::format("must be below simulation.vehicle.altitude_m, {:.6g} m", vehicle.altitude_m),
-                   .advice = "take a lower height, or fly higher"});
-  }
-}
-
 void check_ids(const Mission& mission, const MissionSource& source) {
   if (mission.drone_grid && mission.drone_grid->prefix.size() > 24) {
     source.refuse({.place = "",
@@ -294,8 +262,8 @@ void check_numbers(const Mission& mission, const MissionSource& source) {
   check_memory(mission, source);
   check_lag(mission, source);
   check_ranges(mission, source);
-  check_vehicle(mission, source);
   check_duration(mission, source);
+  check_simulation(mission, source);
 }
 
 void check_drones(const Mission& mission, const MissionSource& source) {

@@ -9,6 +9,8 @@ namespace vigil::runtime {
 
 /// Field, control, safety, health, vehicle: numbers against each other.
 void check_numbers(const Mission& mission, const MissionSource& source);
+/// The simulated world alone: vehicle, wind, link, tracker. A part of check_numbers.
+void check_simulation(const Mission& mission, const MissionSource& source);
 /// Targets and no-fly polygons against the field and each other. Precondition: check_numbers has passed.
 void check_places(const Mission& mission, const MissionSource& source);
 /// Ids and starts. Precondition: check_numbers and check_places have passed; a drone_grid is resolved.

@@ -80,6 +80,8 @@ class DescriptionVisitor {
 
   virtual void number(const Key& key, const Range& range, double& value) = 0;
   virtual void number(const Key& key, const Range& range, std::optional<double>& value) = 0;
+  /// true or false.
+  virtual void truth(const Key& key, bool& value) = 0;
   virtual void text(const Key& key, TextRule rule, std::string& value) = 0;
   /// [x, y], both within `range`.
   virtual void point(const Key& key, const Range& range, Vec2& value) = 0;
@@ -128,6 +130,9 @@ void describe(DescriptionVisitor& visitor, HealthSection& health);
 void describe(DescriptionVisitor& visitor, SensorSection& sensor);
 void describe(DescriptionVisitor& visitor, SimulationSection& simulation);
 void describe(DescriptionVisitor& visitor, VehicleSection& vehicle);
+void describe(DescriptionVisitor& visitor, BatterySection& battery);
+void describe(DescriptionVisitor& visitor, WindSection& wind);
+void describe(DescriptionVisitor& visitor, LinkSection& link);
 void describe(DescriptionVisitor& visitor, TrackerSection& tracker);
 void describe(DescriptionVisitor& visitor, EventEntry& event);
 
@@ -138,7 +143,6 @@ void describe(DescriptionVisitor& visitor, EventEntry& event);
 [[nodiscard]] std::string_view name_of(ergodic::Accounting value);
 [[nodiscard]] std::string_view name_of(safety::BarrierKind value);
 [[nodiscard]] std::string_view name_of(Obstacles value);
-[[nodiscard]] std::string_view name_of(VehicleModel value);
 [[nodiscard]] std::string_view name_of(StartState value);
 [[nodiscard]] std::string_view name_of(EventKind value);
 

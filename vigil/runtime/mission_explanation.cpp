@@ -188,6 +188,7 @@ std::string event_in_words(const EventEntry& event) {
     case EventKind::kOverride:
       return text + " at " + at(event.velocity_m_s) + " m/s";
     case EventKind::kLoseTracking:
+    case EventKind::kLoseLink:
       return text + " for " + in_words(event.for_s, "s");
     case EventKind::kAddTarget:
     case EventKind::kMoveTarget:
@@ -199,14 +200,62 @@ std::string event_in_words(const EventEntry& event) {
   }
 }
 
+std::string explain_vehicle(const Mission& mission) {
+  const VehicleSection& vehicle = mission.simulation.vehicle;
+  const std::string_view name = dynamics::name_of(vehicle.model);
+  switch (vehicle.model) {
+    case dynamics::VehicleKind::kIdeal:
+      return "ideal: its velocity is its command, (3)";
+    case dynamics::VehicleKind::kFirstOrderLag:
+      return fmt::format("{} of {}", name, in_words(vehicle.lag_s, "s"));
+    default:
+      break;
+  }
+  const dynamics::VelocityLoop loop = vehicle_model(mission).horizontal;
+  return fmt::format("{}, as recorded; an order acts after {}", name,
+                     in_words(vehicle.command_delay_s + mission.simulation.link.delay_s + loop.response_delay_s, "s"));
+}
+
+std::string explain_link(const LinkSection& link) {
+  return fmt::format("loses {:.6g} % of its packets, {:.6g} in a row; {} and up to {} more; {}", 100.0 * link.loss,
+                     link.burst_packets, in_words(link.delay_s, "s"), in_words(link.jitter_s, "s"),
+                     link.rate_hz ? in_words(*link.rate_hz, "Hz") : "one packet a tick");
+}
+
+std::string explain_tracker(const TrackerSection& tracker) {
+  std::string text =
+      fmt::format("{}, noise {}, bias {}, {} old", tracker.over_link ? "satellites, over the link" : "bodies",
+                  in_words(tracker.noise_m, "m"), in_words(tracker.bias_m, "m"), in_words(tracker.delay_s, "s"));
+  if (tracker.rate_hz) text += ", " + in_words(*tracker.rate_hz, "Hz");
+  if (tracker.dropouts_per_min > 0.0) text += fmt::format(", lost {:.6g} times a minute", tracker.dropouts_per_min);
+  if (tracker.swaps_per_h > 0.0) text += fmt::format(", {:.6g} confusions an hour", tracker.swaps_per_h);
+  return text;
+}
+
+/// What is simulated around the vehicles, where it is more than a perfect world.
+std::string explain_world(const SimulationSection& simulation) {
+  std::string text;
+  if (simulation.battery) {
+    text += line("battery", fmt::format("{:.6g} % charged, {:.6g} % of a new one's capacity",
+                                        100.0 * simulation.battery->start, 100.0 * simulation.battery->health));
+  }
+  const WindSection& wind = simulation.wind;
+  if (wind.gust_m_s > 0.0 || !wind.mean_m_s.isZero(0.0)) {
+    text += line("wind", fmt::format("[{:.6g}, {:.6g}] m/s with gusts of {}", wind.mean_m_s.x(), wind.mean_m_s.y(),
+                                     in_words(wind.gust_m_s, "m/s")));
+  }
+  if (simulation.link != LinkSection{}) text += line("link", explain_link(simulation.link));
+  if (simulation.tracker != TrackerSection{}) text += line("tracker", explain_tracker(simulation.tracker));
+  return text;
+}
+
 std::string explain_simulation(const Mission& mission) {
   const SimulationSection& simulation = mission.simulation;
   std::string text = "simulation\n";
   text += line("lasts", fmt::format("{}, seed {}, starts {}", in_words(simulation.duration_s, "s"), simulation.seed,
                                     name_of(simulation.start)));
-  text += line("vehicle", simulation.vehicle.model == VehicleModel::kIdeal
-                              ? "ideal: its velocity is its command, (3)"
-                              : fmt::format("first_order_lag of {}", in_words(simulation.vehicle.lag_s, "s")));
+  text += line("vehicle", explain_vehicle(mission));
+  text += explain_world(simulation);
   for (const EventEntry& event : simulation.events)
     text += line(fmt::format("{:.6g} s", event.at_s), event_in_words(event));
   return text;

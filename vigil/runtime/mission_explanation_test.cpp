@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
@@ -44,6 +45,21 @@ TEST(MissionExplanation, Its_text_names_everything_that_the_mission_names) {
   }
 }
 
+TEST(MissionExplanation, Its_text_names_what_is_simulated) {
+  Mission mission = right();
+  mission.simulation.vehicle = {.model = dynamics::VehicleKind::kPx4, .acceleration_limit_m_s2 = std::nullopt};
+  mission.simulation.battery = {.start = 0.9, .endurance_s = std::nullopt};
+  mission.simulation.wind.gust_m_s = 1.5;
+  mission.simulation.link.loss = 0.1;
+  mission.simulation.link.delay_s = 0.02;
+  mission.simulation.tracker.over_link = true;
+  const std::string text = explain(mission);
+  for (const std::string_view words : {"px4, as recorded; an order acts after 0.155 s", "90 % charged",
+                                       "gusts of 1.5 m/s", "loses 10 %", "satellites"}) {
+    EXPECT_NE(text.find(words), std::string::npos) << words;
+  }
+}
+
 TEST(MissionNotes, A_mission_without_contradictions_needs_none) {
   EXPECT_TRUE(notes_on(right()).empty()) << notes_on(right()).front();
 }
@@ -66,6 +82,48 @@ TEST(MissionNotes, Noise_without_a_margin_is_noted) {
   EXPECT_TRUE(any_note_says(mission, "safety.margin_m is 0"));
   mission.safety.margin_m = 0.05;
   EXPECT_TRUE(notes_on(mission).empty());
+}
+
+TEST(MissionNotes, Whatever_stands_between_filter_and_vehicle_without_a_margin_is_noted) {
+  const auto is_noted = [](const std::function<void(SimulationSection&)>& change) {
+    Mission mission = right();
+    change(mission.simulation);
+    return any_note_says(mission, "safety.margin_m is 0");
+  };
+  EXPECT_TRUE(is_noted([](SimulationSection& simulation) { simulation.link.delay_s = 0.1; }));
+  EXPECT_TRUE(is_noted([](SimulationSection& simulation) { simulation.link.loss = 0.1; }));
+  EXPECT_TRUE(is_noted([](SimulationSection& simulation) { simulation.wind.gust_m_s = 1.0; }));
+  EXPECT_TRUE(is_noted([](SimulationSection& simulation) { simulation.tracker.bias_m = 1.0; }));
+  EXPECT_TRUE(is_noted([](SimulationSection& simulation) { simulation.tracker.swaps_per_h = 1.0; }));
+  EXPECT_TRUE(is_noted([](SimulationSection& simulation) {
+    simulation.vehicle.model = dynamics::VehicleKind::kPx4;
+    simulation.vehicle.lag_s = 0.0;
+  }));
+}
+
+TEST(MissionNotes, A_link_slower_than_what_waits_for_it_is_noted) {
+  Mission mission = right();
+  mission.simulation.link.rate_hz = 0.8;
+  EXPECT_TRUE(any_note_says(mission, "Drones are heard every 1.25 s"));
+  mission.simulation.vehicle.model = dynamics::VehicleKind::kPx4;
+  EXPECT_TRUE(any_note_says(mission, "Orders come every 1.25 s, and the vehicle takes 1 s of silence for a lost link"));
+}
+
+TEST(MissionNotes, Links_that_are_lost_by_vehicles_without_a_failsafe_are_noted) {
+  Mission mission = right();
+  EXPECT_FALSE(any_note_says(mission, "has no failsafe"));
+  mission.simulation.events.emplace_back().what = EventKind::kLoseLink;
+  EXPECT_TRUE(any_note_says(mission, "the model `first_order_lag` has no failsafe"));
+  mission.simulation.vehicle.model = dynamics::VehicleKind::kArduCopter;
+  EXPECT_FALSE(any_note_says(mission, "has no failsafe"));
+}
+
+TEST(MissionNotes, A_battery_that_starts_below_the_reserve_is_noted) {
+  Mission mission = right();
+  mission.simulation.battery.emplace();
+  EXPECT_FALSE(any_note_says(mission, "every drone lands"));
+  mission.simulation.battery->start = 0.1;
+  EXPECT_TRUE(any_note_says(mission, "Batteries start at 0.1, below health.battery_reserve (0.2)"));
 }
 
 TEST(MissionNotes, Positions_older_than_the_timeout_are_noted) {

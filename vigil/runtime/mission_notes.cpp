@@ -1,7 +1,9 @@
 #include <algorithm>
+#include <cmath>
 
 #include <fmt/format.h>
 
+#include "vigil/core/dynamics/failsafe.hpp"
 #include "vigil/core/field/density.hpp"
 #include "vigil/runtime/mission_explanation.hpp"
 #include "vigil/runtime/mission_setup.hpp"
@@ -12,7 +14,27 @@ namespace {
 using Notes = std::vector<std::string>;
 
 bool is_paper_barrier(const Mission& mission) { return mission.safety.barrier == safety::BarrierKind::kPaper; }
-bool has_lag(const Mission& mission) { return mission.simulation.vehicle.model == VehicleModel::kFirstOrderLag; }
+bool has_lag(const Mission& mission) { return mission.simulation.vehicle.model != dynamics::VehicleKind::kIdeal; }
+
+bool is_first_order(const Mission& mission) {
+  return mission.simulation.vehicle.model == dynamics::VehicleKind::kFirstOrderLag;
+}
+
+/// Anything beside a first-order lag between what the filter assumes and what is simulated.
+bool is_imperfect(const SimulationSection& simulation) {
+  const TrackerSection& tracker = simulation.tracker;
+  const LinkSection& link = simulation.link;
+  return simulation.vehicle.model > dynamics::VehicleKind::kFirstOrderLag || simulation.vehicle.command_delay_s > 0.0 ||
+         simulation.vehicle.acceleration_limit_m_s2 || tracker.noise_m > 0.0 || tracker.bias_m > 0.0 ||
+         tracker.delay_s > 0.0 || tracker.jitter_s > 0.0 || tracker.dropouts_per_min > 0.0 ||
+         tracker.swaps_per_h > 0.0 || simulation.wind.gust_m_s > 0.0 || link.loss > 0.0 || link.delay_s > 0.0 ||
+         link.jitter_s > 0.0;
+}
+
+/// Between two of what comes so often, or every tick.
+double period_s(const Mission& mission, const std::optional<double>& rate_hz) {
+  return rate_hz ? std::max(tick_s(mission), 1.0 / *rate_hz) : tick_s(mission);
+}
 
 void note_targets(const Mission& mission, Notes& notes) {
   const field::Importance map = importance(mission);
@@ -28,22 +50,19 @@ void note_targets(const Mission& mission, Notes& notes) {
 
 void note_barrier(const Mission& mission, Notes& notes) {
   const VehicleSection& vehicle = mission.simulation.vehicle;
-  const TrackerSection& tracker = mission.simulation.tracker;
   if (is_paper_barrier(mission) && has_lag(mission)) {
     notes.emplace_back(
         "The barrier `paper` is safe only for vehicles that follow their velocity at once; this vehicle lags: "
         "expect violations, or take `barrier: lag_aware`.");
   }
-  if (!is_paper_barrier(mission) && has_lag(mission) && mission.safety.lag_s < vehicle.lag_s) {
+  if (!is_paper_barrier(mission) && is_first_order(mission) && mission.safety.lag_s < vehicle.lag_s) {
     notes.push_back(
         fmt::format("safety.lag_s ({} s) is less than the vehicle's lag ({} s): separation is not guaranteed.",
                     mission.safety.lag_s, vehicle.lag_s));
   }
-  const bool is_imperfect = vehicle.command_delay_s > 0.0 || vehicle.acceleration_limit_m_s2 || tracker.noise_m > 0.0 ||
-                            tracker.delay_s > 0.0 || tracker.dropouts_per_min > 0.0;
-  if (is_imperfect && mission.safety.margin_m == 0.0) {
+  if (is_imperfect(mission.simulation) && mission.safety.margin_m == 0.0) {
     notes.emplace_back(
-        "Delay, noise, dropouts or an acceleration limit are simulated, but safety.margin_m is 0: separation may "
+        "Delay, noise, losses, gusts or more than a lag are simulated, but safety.margin_m is 0: separation may "
         "be missed by what they cost.");
   }
 }
@@ -76,13 +95,50 @@ void note_accounting(const Mission& mission, Notes& notes) {
 }
 
 void note_health(const Mission& mission, Notes& notes) {
-  const double age = mission.simulation.tracker.delay_s + tick_s(mission);
+  const TrackerSection& tracker = mission.simulation.tracker;
+  const LinkSection& link = mission.simulation.link;
+  double age = tracker.delay_s + tracker.jitter_s + period_s(mission, tracker.rate_hz);
+  if (tracker.over_link) age += link.delay_s + link.jitter_s + period_s(mission, link.rate_hz);
   if (age > mission.health.tracking_timeout_s) {
     notes.push_back(
         fmt::format("Positions are up to {:.3g} s old, health.tracking_timeout_s is {} s: every drone will count as "
                     "lost.",
                     age, mission.health.tracking_timeout_s));
   }
+}
+
+bool loses_links(const Mission& mission) {
+  return mission.simulation.link.loss > 0.0 ||
+         std::ranges::any_of(mission.simulation.events,
+                             [](const EventEntry& event) { return event.what == EventKind::kLoseLink; });
+}
+
+void note_link(const Mission& mission, Notes& notes) {
+  const double period = period_s(mission, mission.simulation.link.rate_hz);
+  const double hovers_after = dynamics::failsafe_of(mission.simulation.vehicle.model).hover_after_s;
+  if (period >= hovers_after) {
+    notes.push_back(
+        fmt::format("Orders come every {:.3g} s, and the vehicle takes {:.3g} s of silence for a lost link.", period,
+                    hovers_after));
+  }
+  if (period >= mission.health.link_timeout_s) {
+    notes.push_back(
+        fmt::format("Drones are heard every {:.3g} s, health.link_timeout_s is {} s: every drone will count as lost.",
+                    period, mission.health.link_timeout_s));
+  }
+  if (std::isinf(hovers_after) && loses_links(mission)) {
+    notes.push_back(
+        fmt::format("Links are lost, and the model `{}` has no failsafe: a drone out of reach flies its last velocity "
+                    "on.",
+                    dynamics::name_of(mission.simulation.vehicle.model)));
+  }
+}
+
+void note_battery(const Mission& mission, Notes& notes) {
+  const std::optional<BatterySection>& battery = mission.simulation.battery;
+  if (!battery || battery->start >= mission.health.battery_reserve) return;
+  notes.push_back(fmt::format("Batteries start at {:.3g}, below health.battery_reserve ({:.3g}): every drone lands.",
+                              battery->start, mission.health.battery_reserve));
 }
 
 void note_start(const Mission& mission, Notes& notes) {
@@ -113,6 +169,8 @@ std::vector<std::string> notes_on(const Mission& mission) {
   note_ranges(mission, notes);
   note_accounting(mission, notes);
   note_health(mission, notes);
+  note_link(mission, notes);
+  note_battery(mission, notes);
   note_start(mission, notes);
   note_overrides(mission, notes);
   return notes;

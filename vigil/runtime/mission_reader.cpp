@@ -59,6 +59,15 @@ class Reader final : public DescriptionVisitor {
     }
   }
 
+  void truth(const Key& key, bool& value) override {
+    constexpr const char* kTruth = "must be true or false";
+    const YamlNode* node = take(key, kTruth);
+    if (node == nullptr) return;
+    if (node->kind != YamlNode::Kind::kScalar) refuse(*node, key, "", what_it_is(*node), kTruth, give(key));
+    if (scalar_type(*node) != ScalarType::kBoolean) refuse(*node, key, "", "is no truth value", kTruth, give(key));
+    value = node->text.starts_with('t') || node->text.starts_with('T');
+  }
+
   void text(const Key& key, TextRule rule, std::string& value) override {
     const std::string valid = fmt::format("must be {}", rule_in_words(rule));
     const YamlNode* node = take(key, valid);

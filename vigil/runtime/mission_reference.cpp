@@ -55,6 +55,9 @@ class ReferenceWriter final : public DescriptionVisitor {
   void number(const Key& key, const Range& range, std::optional<double>& /*value*/) override {
     row(key, interval(range, key.unit), key.default_text);
   }
+  void truth(const Key& key, bool& value) override {
+    row(key, "`true`, `false`", default_of(key, value ? "true" : "false"));
+  }
   void text(const Key& key, TextRule rule, std::string& value) override {
     row(key, rule_in_words(rule), default_of(key, value.empty() ? "\"\"" : value));
   }

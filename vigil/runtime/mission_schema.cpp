@@ -70,6 +70,12 @@ class SchemaWriter final : public DescriptionVisitor {
     add(key, json_number(range));
   }
 
+  void truth(const Key& key, bool& value) override {
+    Json schema{{"type", "boolean"}};
+    if (!key.is_required) schema["default"] = value;
+    add(key, std::move(schema));
+  }
+
   void text(const Key& key, TextRule rule, std::string& value) override {
     Json schema = json_text(rule);
     if (!key.is_required) schema["default"] = value;

@@ -92,6 +92,7 @@ class Validator {
     if (type == "array") return value.is_array();
     if (type == "string") return value.is_string();
     if (type == "number") return value.is_number();
+    if (type == "boolean") return value.is_boolean();
     if (type == "integer") return value.is_number_integer();
     ADD_FAILURE() << "type " << type;
     return false;
@@ -147,7 +148,7 @@ std::string text_of(const std::filesystem::path& path) {
 
 TEST(MissionSchema, It_accepts_what_the_reader_accepts) {
   EXPECT_TRUE(schema_accepts(right_mission()));
-  for (const auto& entry : std::filesystem::directory_iterator(VIGIL_MISSIONS_DIR)) {
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(VIGIL_MISSIONS_DIR)) {
     if (entry.path().extension() == ".yaml") {
       EXPECT_TRUE(schema_accepts(text_of(entry.path()))) << entry.path();
     }

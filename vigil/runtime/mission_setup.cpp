@@ -20,6 +20,22 @@ field::WorldFrame world_frame(const Mission& mission) {
   return {.origin_W = mission.field.origin_m, .yaw_rad = mission.field.yaw_rad};
 }
 
+dynamics::VehicleModel vehicle_model(const Mission& mission) {
+  switch (mission.simulation.vehicle.model) {
+    case dynamics::VehicleKind::kFirstOrderLag:
+      return dynamics::first_order_lag_vehicle(mission.simulation.vehicle.lag_s);
+    case dynamics::VehicleKind::kCrazyflie:
+      return dynamics::crazyflie_vehicle();
+    case dynamics::VehicleKind::kArduCopter:
+      return dynamics::arducopter_vehicle();
+    case dynamics::VehicleKind::kPx4:
+      return dynamics::px4_vehicle();
+    case dynamics::VehicleKind::kIdeal:
+      break;
+  }
+  return dynamics::ideal_vehicle();
+}
+
 double tick_s(const Mission& mission) { return 1.0 / mission.control.rate_hz; }
 
 double sigma_min_m(const Mission& mission) {

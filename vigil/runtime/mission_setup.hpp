@@ -18,6 +18,8 @@ namespace vigil::runtime {
 [[nodiscard]] field::WorldFrame world_frame(const Mission& mission);
 
 /// The time for which a velocity is held, seconds.
+/// The model that the simulated vehicles have. Precondition: check_numbers has passed.
+[[nodiscard]] dynamics::VehicleModel vehicle_model(const Mission& mission);
 [[nodiscard]] double tick_s(const Mission& mission);
 
 /// targets.sigma_min_m, by default 5 % of the field's shorter side.

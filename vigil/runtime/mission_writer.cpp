@@ -37,6 +37,7 @@ class Writer final : public DescriptionVisitor {
   void number(const Key& key, const Range& /*range*/, std::optional<double>& value) override {
     if (value) line(key, fmt::format("{}", *value));
   }
+  void truth(const Key& key, bool& value) override { line(key, value ? "true" : "false"); }
   void text(const Key& key, TextRule /*rule*/, std::string& value) override { line(key, text_in_yaml(value)); }
   void point(const Key& key, const Range& /*range*/, Vec2& value) override { line(key, in_yaml(value)); }
 

@@ -142,11 +142,12 @@ class Maker {
 
   void make_simulation() {
     SimulationSection& simulation = mission_.simulation;
-    const bool lags = dice_.coin();
+    const auto model = static_cast<dynamics::VehicleKind>(dice_.below(5));
+    const bool lags = model == dynamics::VehicleKind::kFirstOrderLag;
     simulation.duration_s = dice_.between(100.0, 200.0);
     simulation.seed = dice_.below(std::size_t{1} << 53U);
     simulation.start = dice_.coin() ? StartState::kGrounded : StartState::kFlying;
-    simulation.vehicle = {.model = lags ? VehicleModel::kFirstOrderLag : VehicleModel::kIdeal,
+    simulation.vehicle = {.model = model,
                           .lag_s = lags ? dice_.between(0.01, 0.5) : 0.0,
                           .acceleration_limit_m_s2 = lags ? dice_.maybe(1.0, 5.0) : std::nullopt,
                           .command_delay_s = dice_.between(0.0, 0.1),
@@ -154,21 +155,49 @@ class Maker {
                           .take_off_s = dice_.between(0.0, 5.0),
                           .landing_s = dice_.between(0.0, 5.0),
                           .emergency_s = dice_.between(0.0, 1.0)};
-    simulation.tracker = {.noise_m = dice_.between(0.0, 0.1),
-                          .velocity_noise_m_s = dice_.between(0.0, 0.1),
-                          .delay_s = dice_.between(0.0, 0.1),
-                          .dropouts_per_min = dice_.between(0.0, 3.0),
-                          .dropout_s = dice_.between(0.1, 1.0)};
+    make_world();
     double at_s = 0.0;
     for (std::size_t i = dice_.below(12); i-- > 0;)
       simulation.events.push_back(make_event(at_s += dice_.between(0.0, 8.0)));
+  }
+
+  void make_world() {
+    SimulationSection& simulation = mission_.simulation;
+    const bool is_pushed = simulation.vehicle.model != dynamics::VehicleKind::kIdeal;
+    if (dice_.coin())
+      simulation.battery = {.start = dice_.between(0.1, 1.0),
+                            .health = dice_.between(0.1, 1.0),
+                            .endurance_s = dice_.maybe(10.0, 1000.0)};
+    simulation.wind = {.mean_m_s = is_pushed ? Vec2(dice_.between(-5.0, 5.0), dice_.between(-5.0, 5.0)) : Vec2::Zero(),
+                       .gust_m_s = is_pushed ? dice_.between(0.0, 3.0) : 0.0,
+                       .gust_time_s = dice_.between(0.1, 10.0),
+                       .drag_per_s = dice_.between(0.0, 1.0),
+                       .rejection_time_s = dice_.between(0.1, 5.0)};
+    simulation.link = {.loss = dice_.between(0.0, 0.5),
+                       .burst_packets = dice_.between(1.0, 20.0),
+                       .delay_s = dice_.between(0.0, 0.1),
+                       .jitter_s = dice_.between(0.0, 0.1),
+                       .rate_hz = dice_.maybe(1.0, 50.0)};
+    const bool over_link = dice_.coin();
+    simulation.tracker = {.rate_hz = dice_.maybe(1.0, 100.0),
+                          .noise_m = dice_.between(0.0, 0.1),
+                          .velocity_noise_m_s = dice_.between(0.0, 0.1),
+                          .bias_m = dice_.between(0.0, 0.1),
+                          .bias_time_s = dice_.between(1.0, 100.0),
+                          .delay_s = dice_.between(0.0, 0.1),
+                          .jitter_s = dice_.between(0.0, 0.1),
+                          .dropouts_per_min = dice_.between(0.0, 3.0),
+                          .dropout_s = dice_.between(0.1, 1.0),
+                          .swaps_per_h = over_link ? 0.0 : dice_.between(0.0, 10.0),
+                          .swap_s = dice_.between(0.1, 2.0),
+                          .over_link = over_link};
   }
 
   /// Every kind of event; those of targets are about a cluster that the first of them makes.
   EventEntry make_event(double at_s) {
     EventEntry event;
     event.at_s = at_s;
-    event.what = static_cast<EventKind>(dice_.below(15));
+    event.what = static_cast<EventKind>(dice_.below(16));
     const bool needs_cluster = event.what == EventKind::kMoveTarget || event.what == EventKind::kRemoveTarget ||
                                event.what == EventKind::kSetWeight;
     if (needs_cluster && targets_added_ == 0) event.what = EventKind::kAddTarget;
@@ -177,7 +206,8 @@ class Maker {
       event.drone = dice_.coin() ? "all" : "d1";
       if (event.what == EventKind::kOverride)
         event.velocity_m_s = Vec2(dice_.between(-1.0, 1.0), dice_.between(-1.0, 1.0));
-      if (event.what == EventKind::kLoseTracking) event.for_s = dice_.between(0.1, 5.0);
+      if (event.what == EventKind::kLoseTracking || event.what == EventKind::kLoseLink)
+        event.for_s = dice_.between(0.1, 5.0);
       return event;
     }
     event.cluster = "from above: [new]";

@@ -5,9 +5,18 @@
 namespace vigil::runtime {
 namespace {
 
-constexpr std::array<Choice, 2> kVehicleModel{{
+constexpr std::array<Choice, 5> kVehicleModel{{
     {"ideal", "(3): the velocity is the command"},
     {"first_order_lag", "v' = (u - v) / lag_s, with |v'| limited where acceleration_limit_m_s2 is given"},
+    {"crazyflie",
+     "a Crazyflie as recorded: second order, 0.88 of what is commanded; silent for 0.5 s it hovers, for 2 s "
+     "it falls"},
+    {"arducopter",
+     "ArduCopter as recorded: acceleration and jerk limited, 0.12 s of dead time; silent for 3 s it "
+     "hovers"},
+    {"px4",
+     "PX4 as recorded: slow integral, strong drag, 0.135 s of dead time; silent for 1 s it hovers and takes no "
+     "velocity any more"},
 }};
 
 constexpr std::array<Choice, 2> kStartState{{
@@ -15,7 +24,7 @@ constexpr std::array<Choice, 2> kStartState{{
     {"grounded", "every drone stands at its start until a take_off event"},
 }};
 
-constexpr std::array<Choice, 15> kEventKind{{
+constexpr std::array<Choice, 16> kEventKind{{
     {"take_off", "the operator lets a drone take off"},
     {"land", "the operator lets a drone land where it is"},
     {"hold", "the operator lets a drone hover, out of coverage"},
@@ -26,6 +35,7 @@ constexpr std::array<Choice, 15> kEventKind{{
     {"override", "a pilot takes a drone over and flies it at velocity_m_s"},
     {"give_back", "the pilot gives the drone back"},
     {"lose_tracking", "the tracker does not see a drone for for_s"},
+    {"lose_link", "nothing passes between a drone and the ground for for_s"},
     {"add_target", "a target point joins a cluster, which is made where it is new"},
     {"move_target", "a target point of a cluster moves"},
     {"remove_target", "a target point leaves its cluster; the last one removes the cluster"},
@@ -79,9 +89,10 @@ void describe_particulars(DescriptionVisitor& visitor, EventEntry& event) {
           {-100.0, 100.0}, event.velocity_m_s);
       return;
     case EventKind::kLoseTracking:
+    case EventKind::kLoseLink:
       describe_drone(visitor, event);
       visitor.number(
-          {.name = "for_s", .meaning = "the time for which it is not seen", .unit = "s", .is_required = true},
+          {.name = "for_s", .meaning = "the time for which it is not seen or heard", .unit = "s", .is_required = true},
           {0.0, 1e6, false}, event.for_s);
       return;
     case EventKind::kAddTarget:
@@ -116,6 +127,20 @@ void describe(DescriptionVisitor& visitor, SimulationSection& simulation) {
   visitor.choice({.name = "start", .meaning = "how drones are found at the start"}, kStartState, simulation.start);
   visitor.section({.name = "vehicle", .meaning = "how a vehicle follows its velocity command"},
                   [&](DescriptionVisitor& v) { describe(v, simulation.vehicle); });
+  visitor.optional_section(
+      {.name = "battery", .meaning = "batteries that wear down in the air; without it none does, and none is reported"},
+      {.is_present = simulation.battery.has_value(),
+       .create = [&] { simulation.battery.emplace(); },
+       .describe = [&](DescriptionVisitor& v) { describe(v, *simulation.battery); }});
+  visitor.section(
+      {.name = "wind",
+       .meaning = "the moving air: a vehicle leans against its mean and is pushed by its gusts, each by its "
+                  "own"},
+      [&](DescriptionVisitor& v) { describe(v, simulation.wind); });
+  visitor.section({.name = "link",
+                   .meaning = "the radio between the ground and each drone: orders pass it upwards, mode and battery "
+                              "(and the position, with tracker.over_link) downwards, each direction by itself"},
+                  [&](DescriptionVisitor& v) { describe(v, simulation.link); });
   visitor.section({.name = "tracker", .meaning = "how positions are measured"},
                   [&](DescriptionVisitor& v) { describe(v, simulation.tracker); });
   visitor.list({.name = "events", .meaning = "what happens when, in the order of at_s"}, {0, 10'000},
@@ -132,7 +157,8 @@ void describe(DescriptionVisitor& visitor, VehicleSection& vehicle) {
                   .default_text = "none"},
                  {0.0, 1000.0, false}, vehicle.acceleration_limit_m_s2);
   visitor.number({.name = "command_delay_s",
-                  .meaning = "the time from the controller's decision to the vehicle's reaction",
+                  .meaning = "the time from the controller's decision to the vehicle's reaction, beside those of the "
+                             "link and of the model; whole delays are rounded to ticks",
                   .unit = "s"},
                  {0.0, 10.0}, vehicle.command_delay_s);
   visitor.number({.name = "altitude_m", .meaning = "the height at which it flies", .unit = "m"}, {0.0, 1e4, false},
@@ -146,20 +172,101 @@ void describe(DescriptionVisitor& visitor, VehicleSection& vehicle) {
       kDuration, vehicle.emergency_s);
 }
 
+void describe(DescriptionVisitor& visitor, BatterySection& battery) {
+  visitor.number({.name = "start", .meaning = "the charge at the start, as a share of what the battery can hold"},
+                 {0.0, 1.0, false}, battery.start);
+  visitor.number({.name = "health",
+                  .meaning = "the share of a new battery's capacity that age has left; its resistance grows as 1 / "
+                             "health"},
+                 {0.1, 1.0}, battery.health);
+  visitor.number({.name = "endurance_s",
+                  .meaning = "the time for which a full new one keeps a vehicle in the air; empty, a vehicle lands",
+                  .unit = "s",
+                  .default_text = "about 1200 s for arducopter and px4, 420 s for the others"},
+                 {1.0, 86'400.0}, battery.endurance_s);
+}
+
+void describe(DescriptionVisitor& visitor, WindSection& wind) {
+  visitor.point({.name = "mean_m_s",
+                 .meaning = "the mean wind, world frame; it pushes at take-off, until the vehicle has learnt to lean "
+                            "against it",
+                 .unit = "m/s"},
+                {-50.0, 50.0}, wind.mean_m_s);
+  visitor.number({.name = "gust_m_s", .meaning = "the standard deviation of the gusts, per axis", .unit = "m/s"},
+                 {0.0, 50.0}, wind.gust_m_s);
+  visitor.number({.name = "gust_time_s", .meaning = "the time over which gusts are alike", .unit = "s"}, {0.01, 3600.0},
+                 wind.gust_time_s);
+  visitor.number({.name = "drag_per_s",
+                  .meaning = "the acceleration by a metre per second of wind that the vehicle does not lean against",
+                  .unit = "1/s"},
+                 {0.0, 10.0}, wind.drag_per_s);
+  visitor.number({.name = "rejection_time_s",
+                  .meaning = "the time constant with which it learns to lean against a change",
+                  .unit = "s"},
+                 {0.01, 3600.0}, wind.rejection_time_s);
+}
+
+void describe(DescriptionVisitor& visitor, LinkSection& link) {
+  visitor.number({.name = "loss", .meaning = "the share of packets that is lost, on average"}, {0.0, 0.99}, link.loss);
+  visitor.number({.name = "burst_packets",
+                  .meaning = "how many packets are lost in a row, on average; at least loss / (1 - loss)",
+                  .unit = "packets"},
+                 {1.0, 1e6}, link.burst_packets);
+  visitor.number({.name = "delay_s", .meaning = "the time that a packet takes, at least", .unit = "s"}, {0.0, 10.0},
+                 link.delay_s);
+  visitor.number({.name = "jitter_s",
+                  .meaning = "what it may take on top of that, evenly distributed; what is overtaken is dropped",
+                  .unit = "s"},
+                 {0.0, 10.0}, link.jitter_s);
+  visitor.number({.name = "rate_hz",
+                  .meaning = "the packets per second in each direction, one a tick at most",
+                  .unit = "Hz",
+                  .default_text = "one a tick"},
+                 {0.01, 1000.0}, link.rate_hz);
+}
+
 void describe(DescriptionVisitor& visitor, TrackerSection& tracker) {
+  visitor.number({.name = "rate_hz",
+                  .meaning = "the measurements per second, one a tick at most",
+                  .unit = "Hz",
+                  .default_text = "one a tick"},
+                 {0.01, 1000.0}, tracker.rate_hz);
   visitor.number({.name = "noise_m", .meaning = "the standard deviation of a position, per axis", .unit = "m"}, kNoise,
                  tracker.noise_m);
   visitor.number(
       {.name = "velocity_noise_m_s", .meaning = "the standard deviation of a velocity, per axis", .unit = "m/s"},
       kNoise, tracker.velocity_noise_m_s);
-  visitor.number({.name = "delay_s", .meaning = "the age of a measurement when it arrives", .unit = "s"}, {0.0, 10.0},
-                 tracker.delay_s);
+  visitor.number(
+      {.name = "bias_m",
+       .meaning = "the standard deviation, per axis, of a position's slowly wandering error, each drone's its "
+                  "own",
+       .unit = "m"},
+      kNoise, tracker.bias_m);
+  visitor.number({.name = "bias_time_s", .meaning = "the time over which that error is alike", .unit = "s"},
+                 {0.01, 1e6}, tracker.bias_time_s);
+  visitor.number({.name = "delay_s", .meaning = "the age of a measurement when it arrives, at least", .unit = "s"},
+                 {0.0, 10.0}, tracker.delay_s);
+  visitor.number({.name = "jitter_s",
+                  .meaning = "what may come on top of that, evenly distributed; what is overtaken is dropped",
+                  .unit = "s"},
+                 {0.0, 10.0}, tracker.jitter_s);
   visitor.number({.name = "dropouts_per_min",
                   .meaning = "the number of times a drone is lost from sight, on average",
                   .unit = "1/min"},
                  {0.0, 6000.0}, tracker.dropouts_per_min);
   visitor.number({.name = "dropout_s", .meaning = "the mean length of one", .unit = "s"}, {0.0, 600.0, false},
                  tracker.dropout_s);
+  visitor.number({.name = "swaps_per_h",
+                  .meaning = "the number of times that a drone and the one nearest to it are taken for each other, on "
+                             "average in the whole swarm",
+                  .unit = "1/h"},
+                 {0.0, 36'000.0}, tracker.swaps_per_h);
+  visitor.number({.name = "swap_s", .meaning = "the length of each", .unit = "s"}, {0.0, 600.0, false}, tracker.swap_s);
+  visitor.truth(
+      {.name = "over_link",
+       .meaning = "vehicles find their own position and send it over the link: what the link loses or delays, "
+                  "the position does"},
+      tracker.over_link);
 }
 
 void describe(DescriptionVisitor& visitor, EventEntry& event) {
@@ -173,7 +280,6 @@ void describe(DescriptionVisitor& visitor, EventEntry& event) {
                    });
 }
 
-std::string_view name_of(VehicleModel value) { return kVehicleModel.at(static_cast<std::size_t>(value)).name; }
 std::string_view name_of(StartState value) { return kStartState.at(static_cast<std::size_t>(value)).name; }
 std::string_view name_of(EventKind value) { return kEventKind.at(static_cast<std::size_t>(value)).name; }
 

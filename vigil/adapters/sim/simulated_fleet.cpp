@@ -1,70 +1,122 @@
 #include "vigil/adapters/sim/simulated_fleet.hpp"
 
-#include <algorithm>
 #include <cassert>
 #include <cmath>
 
 namespace vigil::sim {
 namespace {
 
-/// What a drone's random stream is for.
-enum Purpose : std::uint64_t { kTrackerPurpose = 1 };
+/// What a random stream is for. Those of a drone are numbered by it, that of the whole fleet by none.
+enum Purpose : std::uint64_t {
+  kTrackerPurpose = 1,
+  kSlowTrackerPurpose = 2,
+  kWindPurpose = 3,
+  kOrderPurpose = 4,
+  kTelemetryPurpose = 5,
+  kConfusionPurpose = 6
+};
+
+constexpr std::uint64_t kWholeFleet = ~std::uint64_t{0};
+
+/// An order waits for the link, and for whatever else delays it.
+LinkParameters order_link(const FleetParameters& parameters) {
+  LinkParameters link = parameters.link;
+  link.packets.delay_s += parameters.vehicle.command_delay_s;
+  return link;
+}
+
+/// What the dead time adds to the ticks of an order's way, so that both together are rounded once.
+std::size_t dead_ticks(const FleetParameters& parameters) {
+  const double way_s = order_link(parameters).packets.delay_s;
+  const double whole_s = way_s + response_delay_s(parameters.vehicle.motion);
+  return static_cast<std::size_t>(std::lround(whole_s / parameters.dt_s) - std::lround(way_s / parameters.dt_s));
+}
 
 }  // namespace
 
 SimulatedFleet::SimulatedFleet(const FleetParameters& parameters, std::span<const Vec2> starts)
-    : truth_(starts.size()),
-      delay_ticks_(static_cast<std::size_t>(std::lround(parameters.vehicle.command_delay_s / parameters.dt_s))) {
-  vehicles_.reserve(starts.size());
-  trackers_.reserve(starts.size());
-  for (std::size_t i = 0; i < starts.size(); ++i) {
-    vehicles_.emplace_back(parameters.vehicle, starts[i], parameters.starts_flying);
-    trackers_.emplace_back(parameters.tracker, parameters.dt_s,
-                           dynamics::RandomStream(parameters.seed, i, kTrackerPurpose));
-  }
-  orders_.resize(starts.size() * (delay_ticks_ + 1));
+    : dt_s_(parameters.dt_s),
+      positions_over_link_(parameters.positions_over_link),
+      confusion_(parameters.confusion, starts.size(),
+                 dynamics::RandomStream(parameters.seed, kWholeFleet, kConfusionPurpose)),
+      truth_(starts.size()) {
+  drones_.reserve(starts.size());
+  for (std::size_t i = 0; i < starts.size(); ++i) drones_.push_back(make_drone(parameters, i, starts[i]));
   copy_truth();
 }
 
+SimulatedFleet::Drone SimulatedFleet::make_drone(const FleetParameters& parameters, std::size_t number,
+                                                 const Vec2& start) const {
+  const auto random = [&](Purpose purpose) { return dynamics::RandomStream(parameters.seed, number, purpose); };
+  return {SimulatedVehicle(parameters.vehicle, start, parameters.starts_flying, dead_ticks(parameters)),
+          SimulatedTracker(parameters.tracker, dt_s_, random(kTrackerPurpose), random(kSlowTrackerPurpose)),
+          SimulatedWind(parameters.wind, parameters.starts_flying, random(kWindPurpose)),
+          Channel<swarm::DroneOrder>(order_link(parameters), dt_s_, random(kOrderPurpose)),
+          Channel<Telemetry>(parameters.link, dt_s_, random(kTelemetryPurpose)),
+          Heard{}};
+}
+
 void SimulatedFleet::copy_truth() noexcept {
-  for (std::size_t i = 0; i < vehicles_.size(); ++i) truth_[i] = vehicles_[i].truth();
+  for (std::size_t i = 0; i < drones_.size(); ++i) truth_[i] = drones_[i].vehicle.truth();
+}
+
+void SimulatedFleet::hear(Drone& drone) noexcept {
+  Telemetry sent{drone.vehicle.truth().mode, drone.vehicle.reported_battery(), {}, tick_};
+  if (positions_over_link_) sent.sighting = drone.tracker.newest();
+  drone.heard.age_s += dt_s_;
+  drone.heard.last.sighting.age_s += dt_s_;
+  const Telemetry* const arrived = drone.telemetry.pass(sent);
+  if (arrived == nullptr) return;
+  drone.heard = {*arrived, 0.0};
+  drone.heard.last.sighting.age_s += static_cast<double>(tick_ - arrived->sent_at) * dt_s_;
+}
+
+void SimulatedFleet::report(const Drone& drone, swarm::DroneObservation& out) const noexcept {
+  write(positions_over_link_ ? drone.heard.last.sighting : drone.tracker.newest(), out);
+  if (drone.heard.age_s == swarm::DroneObservation::kNever) return;
+  out.mode = drone.heard.last.mode;
+  out.battery = drone.heard.last.battery;
+  out.link_age_s = drone.heard.age_s;
 }
 
 void SimulatedFleet::observe(runtime::MissionTime, std::span<swarm::DroneObservation> out) noexcept {
   assert(out.size() == size());
+  confusion_.advance(truth_, dt_s_);
   for (std::size_t i = 0; i < size(); ++i) {
-    trackers_[i].measure(truth_[i]);
-    trackers_[i].observe(out[i]);
-    out[i].mode = truth_[i].mode;
-    out[i].link_age_s = 0.0;
+    Drone& drone = drones_[i];
+    drone.tracker.measure(truth_[confusion_.body_of(i)]);
+    hear(drone);
+    report(drone, out[i]);
   }
+  ++tick_;
 }
 
 void SimulatedFleet::order(runtime::MissionTime, std::span<const swarm::DroneOrder> orders) noexcept {
   assert(orders.size() == size());
-  newest_ = (newest_ + 1) % (delay_ticks_ + 1);
-  std::copy(orders.begin(), orders.end(), orders_.begin() + static_cast<std::ptrdiff_t>(newest_ * size()));
-  deliver_orders();
-}
-
-void SimulatedFleet::deliver_orders() noexcept {
-  const std::size_t oldest = (newest_ + 1) % (delay_ticks_ + 1);
-  for (std::size_t i = 0; i < size(); ++i) vehicles_[i].obey(orders_[oldest * size() + i]);
+  for (std::size_t i = 0; i < size(); ++i) {
+    Drone& drone = drones_[i];
+    if (const swarm::DroneOrder* const arrived = drone.orders.pass(orders[i])) drone.vehicle.obey(*arrived);
+  }
 }
 
 void SimulatedFleet::advance(double dt_s) noexcept {
-  for (SimulatedVehicle& vehicle : vehicles_) vehicle.advance(dt_s);
+  for (Drone& drone : drones_) drone.vehicle.advance(dt_s, drone.wind.advance(drone.vehicle.is_airborne(), dt_s));
   copy_truth();
 }
 
-void SimulatedFleet::fail(swarm::DroneId drone) noexcept { vehicles_[drone.index()].fail(); }
+void SimulatedFleet::fail(swarm::DroneId drone) noexcept { drones_[drone.index()].vehicle.fail(); }
 
 void SimulatedFleet::take_over(swarm::DroneId drone, const Vec2& velocity) noexcept {
-  vehicles_[drone.index()].take_over(velocity);
+  drones_[drone.index()].vehicle.take_over(velocity);
 }
 
-void SimulatedFleet::give_back(swarm::DroneId drone) noexcept { vehicles_[drone.index()].give_back(); }
+void SimulatedFleet::give_back(swarm::DroneId drone) noexcept { drones_[drone.index()].vehicle.give_back(); }
 
-void SimulatedFleet::hide(swarm::DroneId drone, double for_s) noexcept { trackers_[drone.index()].hide(for_s); }
+void SimulatedFleet::hide(swarm::DroneId drone, double for_s) noexcept { drones_[drone.index()].tracker.hide(for_s); }
+
+void SimulatedFleet::cut_link(swarm::DroneId drone, double for_s) noexcept {
+  drones_[drone.index()].orders.cut(for_s);
+  drones_[drone.index()].telemetry.cut(for_s);
+}
 
 }  // namespace vigil::sim

@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include "vigil/core/dynamics/vehicle_model.hpp"
 #include "vigil/testing/allocation_guard.hpp"
 
 namespace vigil::sim {
@@ -195,14 +196,152 @@ TEST(SimulatedFleet, One_drones_luck_does_not_depend_on_how_many_others_there_ar
   }
 }
 
-TEST(SimulatedFleet, It_allocates_nothing_in_flight) {
+/// Everything that a mission can ask for.
+FleetParameters everything() {
   FleetParameters parameters;
-  parameters.tracker.noise_m = 0.01;
-  parameters.tracker.delay_s = 0.1;
-  parameters.vehicle.command_delay_s = 0.1;
-  Flight flight(parameters, 10);
-  testing::AllocationGuard guard;
+  parameters.vehicle.motion = dynamics::px4_vehicle().horizontal;
+  parameters.vehicle.failsafe = dynamics::failsafe_of(dynamics::VehicleKind::kPx4);
+  parameters.vehicle.battery = {dynamics::outdoor_battery(), dynamics::kOutdoorHoverPower, 0.9};
+  parameters.vehicle.command_delay_s = 0.03;
+  parameters.tracker = {.noise_m = 0.01,
+                        .velocity_noise_m_s = 0.02,
+                        .delay_s = 0.05,
+                        .jitter_s = 0.05,
+                        .measurements_per_tick = 0.5,
+                        .dropouts_per_min = 6.0,
+                        .bias = {0.5, 10.0}};
+  parameters.confusion = {.swaps_per_h = 3600.0, .swap_s = 0.3};
+  parameters.link = {.packets = dynamics::bursty_link(0.1, 5.0, 0.02, 0.04), .packets_per_tick = 0.5};
+  parameters.wind = {.mean_m_s = Vec3(3.0, 1.0, 0.0), .gusts = {1.0, 3.0}};
+  return parameters;
+}
+
+TEST(SimulatedFleet, Each_autopilot_flies_as_its_core_model_after_all_delays) {
+  for (const dynamics::VehicleModel& model :
+       {dynamics::crazyflie_vehicle(), dynamics::arducopter_vehicle(), dynamics::px4_vehicle()}) {
+    FleetParameters parameters;
+    parameters.vehicle.motion = model.horizontal;
+    parameters.vehicle.command_delay_s = 0.03;
+    parameters.link.packets.delay_s = 0.015;
+    Flight flight(parameters);
+    flight.ask(Action::kVelocity, {0.8, -0.3});
+    flight.run(2.0);
+    // Rounded at once: 0.045 s + 0.135 s are nine ticks, where each by itself would make two and seven.
+    const double whole_s = 0.045 + model.horizontal.response_delay_s;
+    const double dead_s = static_cast<double>(std::lround(whole_s / kDt)) * kDt;
+    const dynamics::PlanarLoopState after = dynamics::advance(model.horizontal, {}, {0.8, -0.3}, 2.0 - dead_s);
+    EXPECT_LT((flight.truth().position - after.position).norm(), 1e-6) << name_of(model.kind);
+    EXPECT_LT((flight.truth().velocity - after.velocity).norm(), 1e-6) << name_of(model.kind);
+  }
+}
+
+TEST(SimulatedFleet, When_the_link_dies_for_good_each_autopilot_ends_as_recorded) {
+  struct End {
+    dynamics::VehicleModel model;
+    double flies_on_s;
+    VehicleMode at_the_end;
+  };
+  for (const End& end : {End{dynamics::crazyflie_vehicle(), 0.5, VehicleMode::kGrounded},
+                         End{dynamics::arducopter_vehicle(), 3.0, VehicleMode::kFlying},
+                         End{dynamics::px4_vehicle(), 1.0, VehicleMode::kFailed}}) {
+    FleetParameters parameters;
+    parameters.vehicle.motion = end.model.horizontal;
+    parameters.vehicle.failsafe = dynamics::failsafe_of(end.model.kind);
+    Flight flight(parameters);
+    flight.ask(Action::kVelocity, {0.5, 0.0});
+    flight.run(60.0);
+    const double speed = flight.truth().velocity.x();
+    flight.fleet.cut_link(DroneId(0), 1e6);
+    flight.run(end.flies_on_s - 0.04);
+    EXPECT_NEAR(flight.truth().velocity.x(), speed, 1e-3) << name_of(end.model.kind);
+    flight.run(20.0 - end.flies_on_s);
+    EXPECT_EQ(flight.truth().mode, end.at_the_end) << name_of(end.model.kind);
+    EXPECT_LT(flight.truth().velocity.norm(), 0.1 * speed);
+    EXPECT_NEAR(flight.observed[0].link_age_s, 20.0 - 0.04, kDt + 1e-9);
+    EXPECT_EQ(flight.observed[0].mode, VehicleMode::kFlying);  // the last that was heard
+    EXPECT_DOUBLE_EQ(flight.observed[0].age_s, 0.0);           // the tracker needs no link
+  }
+}
+
+TEST(SimulatedFleet, What_is_not_heard_ages_and_comes_back) {
+  FleetParameters parameters = grounded();
+  parameters.vehicle.battery = {dynamics::crazyflie_battery(), dynamics::kCrazyflieHoverPower, 0.5};
+  Flight flight(parameters);
   flight.run(1.0);
+  EXPECT_EQ(flight.observed[0].link_age_s, 0.0);
+  EXPECT_NEAR(flight.observed[0].battery, 0.5, 1e-9);
+  flight.fleet.cut_link(DroneId(0), 0.5);
+  flight.run(0.4);
+  EXPECT_NEAR(flight.observed[0].link_age_s, 0.4, 1e-9);
+  flight.run(0.2);
+  EXPECT_EQ(flight.observed[0].link_age_s, 0.0);
+}
+
+TEST(SimulatedFleet, A_position_that_comes_over_the_link_is_lost_with_it_and_as_old_as_it_says) {
+  FleetParameters parameters;
+  parameters.positions_over_link = true;
+  parameters.tracker.delay_s = 0.06;
+  parameters.link.packets.delay_s = 0.04;
+  Flight flight(parameters);
+  flight.ask(Action::kVelocity, {1.0, 0.0});
+  flight.run(1.0);
+  EXPECT_NEAR(flight.observed[0].age_s, 0.1, 1e-9);
+  EXPECT_NEAR(flight.observed[0].position.x(), flight.truth().position.x() - kDt - 0.1, 1e-9);
+  flight.fleet.cut_link(DroneId(0), 0.5);
+  flight.run(0.5);
+  // What was sent before the cut has arrived in the meantime.
+  EXPECT_NEAR(flight.observed[0].age_s, 0.1 + 0.5 - 0.04, 1e-9);
+  flight.run(0.1);
+  EXPECT_NEAR(flight.observed[0].age_s, 0.1, 1e-9);
+}
+
+TEST(SimulatedFleet, Bodies_that_are_confused_are_seen_at_each_others_place) {
+  FleetParameters parameters;
+  parameters.confusion = {.swaps_per_h = 36'000.0, .swap_s = 0.2};
+  Flight flight(parameters, 2);
+  flight.orders = {{Action::kVelocity, {0.0, 0.1}}, {Action::kVelocity, {0.0, -0.2}}};
+  int confused = 0;
+  for (int i = 0; i < 500; ++i) {
+    const std::vector<runtime::TruthSample> truth(flight.fleet.truth().begin(), flight.fleet.truth().end());
+    flight.step();
+    const bool is_confused = flight.observed[0].position != truth[0].position;
+    const std::size_t body = is_confused ? 1 : 0;
+    EXPECT_EQ(flight.observed[0].position, truth[body].position);
+    EXPECT_EQ(flight.observed[0].velocity, truth[body].velocity);
+    EXPECT_EQ(flight.observed[1].position, truth[1 - body].position);
+    EXPECT_EQ(flight.observed[1].velocity, truth[1 - body].velocity);
+    confused += is_confused ? 1 : 0;
+  }
+  EXPECT_GT(confused, 100);
+  EXPECT_LT(confused, 450);
+}
+
+TEST(SimulatedFleet, The_same_seed_gives_the_same_bits_and_another_one_others) {
+  FleetParameters other_seed = everything();
+  other_seed.seed = 2;
+  Flight first(everything(), 5);
+  Flight again(everything(), 5);
+  Flight other(other_seed, 5);
+  for (Flight* const flight : {&first, &again, &other}) {
+    flight->ask(Action::kVelocity, {1.0, 0.5});
+    flight->run(20.0);
+  }
+  for (std::size_t i = 0; i < 5; ++i) {
+    EXPECT_EQ(first.fleet.truth()[i].position, again.fleet.truth()[i].position);
+    EXPECT_EQ(first.observed[i].position, again.observed[i].position);
+    EXPECT_EQ(first.observed[i].link_age_s, again.observed[i].link_age_s);
+    EXPECT_EQ(first.observed[i].battery, again.observed[i].battery);
+    EXPECT_NE(first.fleet.truth()[i].position, other.fleet.truth()[i].position);
+  }
+}
+
+TEST(SimulatedFleet, It_allocates_nothing_in_flight) {
+  Flight flight(everything(), 10);
+  flight.ask(Action::kVelocity, {1.0, 0.5});
+  testing::AllocationGuard guard;
+  flight.run(5.0);
+  flight.fleet.cut_link(DroneId(0), 0.5);
+  flight.run(5.0);
   EXPECT_EQ(guard.allocations(), 0U);
 }
 

@@ -2,16 +2,39 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace vigil::sim {
 namespace {
 
 std::size_t ticks_of(double delay_s, double dt_s) { return static_cast<std::size_t>(std::lround(delay_s / dt_s)); }
 
+Vec2 advanced(const dynamics::GaussMarkov& bias, const Vec2& value, const Vec2& normals, double dt_s) {
+  return {dynamics::advance(bias, value.x(), normals.x(), dt_s), dynamics::advance(bias, value.y(), normals.y(), dt_s)};
+}
+
 }  // namespace
 
-SimulatedTracker::SimulatedTracker(const TrackerParameters& parameters, double dt_s, dynamics::RandomStream random)
-    : parameters_(parameters), dt_s_(dt_s), random_(random), on_the_way_(ticks_of(parameters.delay_s, dt_s) + 1) {}
+void write(const Sighting& sighting, swarm::DroneObservation& out) noexcept {
+  if (sighting.age_s == swarm::DroneObservation::kNever) return;
+  out.position = sighting.position;
+  out.velocity = sighting.velocity;
+  out.height_m = sighting.height_m;
+  out.age_s = sighting.age_s;
+}
+
+SimulatedTracker::SimulatedTracker(const TrackerParameters& parameters, double dt_s, dynamics::RandomStream random,
+                                   dynamics::RandomStream slow_random)
+    : parameters_(parameters),
+      dt_s_(dt_s),
+      random_(random),
+      slow_random_(slow_random),
+      least_ticks_(ticks_of(parameters.delay_s, dt_s)),
+      beat_(parameters.measurements_per_tick),
+      on_the_way_(ticks_of(parameters.delay_s + parameters.jitter_s, dt_s)) {
+  if (parameters_.bias.sigma > 0.0)  // it has been wandering for ever
+    bias_ = advanced(parameters_.bias, Vec2::Zero(), slow_random_.normal(1.0), std::numeric_limits<double>::infinity());
+}
 
 /// A Poisson process of beginnings, each with an exponential length.
 void SimulatedTracker::draw_dropouts() noexcept {
@@ -24,31 +47,36 @@ void SimulatedTracker::draw_dropouts() noexcept {
 
 void SimulatedTracker::hide(double for_s) noexcept { hidden_s_ = std::max(hidden_s_, for_s); }
 
-void SimulatedTracker::measure(const runtime::TruthSample& truth) noexcept {
-  draw_dropouts();
-  newest_ = (newest_ + 1) % on_the_way_.size();
-  Measurement& measurement = on_the_way_[newest_];
-  measurement.is_seen = hidden_s_ <= 0.0;
-  measurement.position = truth.position;
-  if (parameters_.noise_m > 0.0) measurement.position += random_.normal(parameters_.noise_m);
-  measurement.velocity = truth.velocity;
-  if (parameters_.velocity_noise_m_s > 0.0) measurement.velocity += random_.normal(parameters_.velocity_noise_m_s);
-  measurement.height_m = truth.height_m;
-  hidden_s_ = std::max(0.0, hidden_s_ - dt_s_);
-
-  const Measurement& arriving = on_the_way_[(newest_ + 1) % on_the_way_.size()];  // the oldest of the ring
-  age_s_ += dt_s_;
-  if (!arriving.is_seen) return;
-  arrived_ = arriving;
-  age_s_ = static_cast<double>(on_the_way_.size() - 1) * dt_s_;
+void SimulatedTracker::wander() noexcept {
+  if (parameters_.bias.sigma > 0.0) bias_ = advanced(parameters_.bias, bias_, slow_random_.normal(1.0), dt_s_);
 }
 
-void SimulatedTracker::observe(swarm::DroneObservation& out) const noexcept {
-  if (age_s_ == swarm::DroneObservation::kNever) return;
-  out.position = arrived_.position;
-  out.velocity = arrived_.velocity;
-  out.height_m = arrived_.height_m;
-  out.age_s = age_s_;
+std::size_t SimulatedTracker::draw_delay() noexcept {
+  if (parameters_.jitter_s <= 0.0) return least_ticks_;
+  return ticks_of(parameters_.delay_s + parameters_.jitter_s * slow_random_.uniform(), dt_s_);
+}
+
+void SimulatedTracker::send(const runtime::TruthSample& truth) noexcept {
+  Sighting sighting{truth.position + bias_, truth.velocity, truth.height_m, 0.0};
+  if (parameters_.noise_m > 0.0) sighting.position += random_.normal(parameters_.noise_m);
+  if (parameters_.velocity_noise_m_s > 0.0) sighting.velocity += random_.normal(parameters_.velocity_noise_m_s);
+  const std::size_t ticks = draw_delay();
+  if (hidden_s_ > 0.0) return;
+  sighting.age_s = static_cast<double>(ticks) * dt_s_;  // when it arrives
+  on_the_way_.send(sighting, ticks);
+}
+
+void SimulatedTracker::receive() noexcept {
+  arrived_.age_s += dt_s_;
+  if (const Sighting* const sighting = on_the_way_.receive()) arrived_ = *sighting;
+}
+
+void SimulatedTracker::measure(const runtime::TruthSample& truth) noexcept {
+  draw_dropouts();
+  if (beat_.next()) send(truth);
+  hidden_s_ = std::max(0.0, hidden_s_ - dt_s_);
+  wander();
+  receive();
 }
 
 }  // namespace vigil::sim

@@ -1,20 +1,35 @@
 #include "vigil/adapters/sim/simulated_vehicle.hpp"
 
 #include <algorithm>
+#include <limits>
 
 namespace vigil::sim {
 
+using dynamics::FailsafePhase;
 using swarm::Action;
 using swarm::VehicleMode;
 
-SimulatedVehicle::SimulatedVehicle(const VehicleParameters& parameters, const Vec2& position, bool starts_flying)
-    : parameters_(parameters) {
+double response_delay_s(const MotionModel& motion) noexcept {
+  const auto* const loop = std::get_if<dynamics::VelocityLoop>(&motion);
+  return loop == nullptr ? 0.0 : loop->response_delay_s;
+}
+
+SimulatedVehicle::SimulatedVehicle(const VehicleParameters& parameters, const Vec2& position, bool starts_flying,
+                                   std::size_t dead_ticks)
+    : parameters_(parameters), motion_(parameters.motion, dead_ticks) {
+  motion_.rest_at(position);
+  if (parameters.battery) battery_.emplace(*parameters.battery);
   truth_.position = position;
   truth_.height_m = starts_flying ? parameters.altitude_m : 0.0;
   truth_.mode = starts_flying ? VehicleMode::kFlying : VehicleMode::kGrounded;
 }
 
+double SimulatedVehicle::reported_battery() const noexcept {
+  return battery_ ? battery_->reported() : std::numeric_limits<double>::quiet_NaN();
+}
+
 void SimulatedVehicle::obey(const swarm::DroneOrder& order) noexcept {
+  failsafe_ = dynamics::received(parameters_.failsafe, failsafe_);
   const VehicleMode mode = truth_.mode;
   const bool follows_orders = mode == VehicleMode::kFlying || mode == VehicleMode::kTakingOff;
   switch (order.action) {
@@ -22,7 +37,7 @@ void SimulatedVehicle::obey(const swarm::DroneOrder& order) noexcept {
       if (is_airborne()) truth_.mode = VehicleMode::kFalling;
       break;
     case Action::kTakeOff:
-      if (mode == VehicleMode::kGrounded) truth_.mode = VehicleMode::kTakingOff;
+      if (mode == VehicleMode::kGrounded && !has_empty_battery()) truth_.mode = VehicleMode::kTakingOff;
       break;
     case Action::kLand:
       if (follows_orders) truth_.mode = VehicleMode::kLanding;
@@ -40,36 +55,81 @@ void SimulatedVehicle::climb(double rate_m_s, double dt_s) noexcept {
   truth_.height_m = std::clamp(truth_.height_m + rate_m_s * dt_s, 0.0, parameters_.altitude_m);
 }
 
-void SimulatedVehicle::advance(double dt_s) noexcept {
-  if (!is_airborne()) {
-    truth_.velocity.setZero();
-    return;
-  }
+void SimulatedVehicle::climb_or_descend(double dt_s) noexcept {
   switch (truth_.mode) {
     case VehicleMode::kTakingOff:
-      climb(parameters_.altitude_m / parameters_.take_off_s, dt_s);
-      break;
+      return climb(parameters_.altitude_m / parameters_.take_off_s, dt_s);
     case VehicleMode::kLanding:
-      climb(-parameters_.altitude_m / parameters_.landing_s, dt_s);
-      break;
+      return climb(-parameters_.altitude_m / parameters_.landing_s, dt_s);
     case VehicleMode::kFalling:
-      climb(-parameters_.altitude_m / parameters_.emergency_s, dt_s);
-      break;
+      return climb(-parameters_.altitude_m / parameters_.emergency_s, dt_s);
     default:
-      break;
+      return;
   }
-  const dynamics::PlanarState after =
-      dynamics::advance(parameters_.motion, {truth_.position, truth_.velocity}, command_, dt_s);
-  truth_.position = after.position;
-  truth_.velocity = after.velocity;
+}
 
+void SimulatedVehicle::move(double dt_s, const Vec2& push) noexcept {
+  motion_.advance(command_, dt_s, push);
+  truth_.position = motion_.position();
+  truth_.velocity = motion_.velocity();
+}
+
+void SimulatedVehicle::arrive() noexcept {
   const bool came_down = truth_.mode == VehicleMode::kLanding || truth_.mode == VehicleMode::kFalling;
   if (came_down && truth_.height_m <= 0.0) {
     truth_.mode = VehicleMode::kGrounded;
     truth_.velocity.setZero();
+    motion_.rest_at(truth_.position);
   } else if (truth_.mode == VehicleMode::kTakingOff && truth_.height_m >= parameters_.altitude_m) {
     truth_.mode = VehicleMode::kFlying;
   }
+}
+
+void SimulatedVehicle::watch_battery(double dt_s) noexcept {
+  if (!battery_) return;
+  battery_->advance(is_airborne(), dt_s);
+  if (!is_airborne() || truth_.mode == VehicleMode::kFalling || !battery_->is_empty()) return;
+  truth_.mode = VehicleMode::kLanding;
+  command_.setZero();
+}
+
+void SimulatedVehicle::act_on_silence() noexcept {
+  switch (failsafe_.phase) {
+    case FailsafePhase::kFollowing:
+      return;
+    case FailsafePhase::kHovering:
+      if (parameters_.failsafe.latches_hovering) truth_.mode = VehicleMode::kFailed;
+      break;
+    case FailsafePhase::kLanding:
+      truth_.mode = VehicleMode::kLanding;
+      break;
+    case FailsafePhase::kMotorsCut:
+      truth_.mode = VehicleMode::kFalling;
+      break;
+  }
+  command_.setZero();
+}
+
+/// Only who flies by velocities misses them: take-offs, landings and pilots need no orders.
+void SimulatedVehicle::watch_orders(double dt_s) noexcept {
+  if (truth_.mode != VehicleMode::kFlying) {
+    failsafe_ = {};
+    return;
+  }
+  act_on_silence();
+  failsafe_ = dynamics::advance(parameters_.failsafe, failsafe_, dt_s);
+}
+
+void SimulatedVehicle::advance(double dt_s, const Vec2& push) noexcept {
+  watch_battery(dt_s);
+  if (!is_airborne()) {
+    truth_.velocity.setZero();
+    return;
+  }
+  watch_orders(dt_s);
+  climb_or_descend(dt_s);
+  move(dt_s, push);
+  arrive();
 }
 
 void SimulatedVehicle::fail() noexcept {

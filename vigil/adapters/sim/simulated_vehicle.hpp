@@ -1,19 +1,28 @@
 #pragma once
 
-#include "vigil/core/dynamics/planar_vehicle.hpp"
+#include <optional>
+
+#include "vigil/adapters/sim/planar_motion.hpp"
+#include "vigil/adapters/sim/simulated_battery.hpp"
+#include "vigil/core/dynamics/failsafe.hpp"
 #include "vigil/runtime/fleet.hpp"
 
 namespace vigil::sim {
 
 /// How the simulated vehicles behave.
 struct VehicleParameters {
-  dynamics::PlanarVehicle motion;
-  double command_delay_s = 0.0;
+  MotionModel motion;
+  dynamics::Failsafe failsafe;               ///< by default it follows the last velocity for ever
+  std::optional<BatteryParameters> battery;  ///< none: it is never empty, and says nothing of it
+  double command_delay_s = 0.0;              ///< beside a loop's own dead time
   double altitude_m = 1.0;
   double take_off_s = 2.0;   ///< from the ground to the altitude
   double landing_s = 2.0;    ///< from the altitude to the ground
   double emergency_s = 0.5;  ///< from the altitude to the ground with the motors stopped
 };
+
+/// The dead time between a command's arrival and the vehicle's answer.
+[[nodiscard]] double response_delay_s(const MotionModel& motion) noexcept;
 
 /// One vehicle with its own autopilot, exactly as it is.
 ///
@@ -21,27 +30,47 @@ struct VehicleParameters {
 ///        ^                       |  (land: Landing)        |                                  ^
 ///        +------- stop motors in the air: Falling ---------+----------------------------------+
 ///     Flying <--take_over / give_back--> Manual;   any in the air --fail--> Failed (hovers, obeys nothing but a
-///     stop of its motors)
+///     stop of its motors);   any in the air but Falling --battery empty--> Landing
+///
+/// Flying without orders it acts by its failsafe: it follows its last velocity, then hovers. What comes after: Landing,
+/// Falling where the failsafe cuts the motors, Failed where it latches hovering. Climbing and descending take the times
+/// above whatever the model: up and down, and the stop of a vehicle that fails or falls, are its motion under zero
+/// velocity.
 class SimulatedVehicle {
  public:
-  SimulatedVehicle(const VehicleParameters& parameters, const Vec2& position, bool starts_flying);
+  /// `dead_ticks`: response_delay_s() in steps.
+  SimulatedVehicle(const VehicleParameters& parameters, const Vec2& position, bool starts_flying,
+                   std::size_t dead_ticks = 0);
 
   /// An order as it arrives at the vehicle.
   void obey(const swarm::DroneOrder& order) noexcept;
-  void advance(double dt_s) noexcept;
+  /// One step; `push` (m/s^2) comes from outside.
+  void advance(double dt_s, const Vec2& push = Vec2::Zero()) noexcept;
 
   void fail() noexcept;
   void take_over(const Vec2& velocity) noexcept;
   void give_back() noexcept;
 
   [[nodiscard]] const runtime::TruthSample& truth() const noexcept { return truth_; }
+  [[nodiscard]] bool is_airborne() const noexcept { return truth_.mode != swarm::VehicleMode::kGrounded; }
+  /// The share of charge that it reports; NaN without a battery.
+  [[nodiscard]] double reported_battery() const noexcept;
 
  private:
-  [[nodiscard]] bool is_airborne() const noexcept { return truth_.mode != swarm::VehicleMode::kGrounded; }
   void climb(double rate_m_s, double dt_s) noexcept;
+  void climb_or_descend(double dt_s) noexcept;
+  void move(double dt_s, const Vec2& push) noexcept;
+  void arrive() noexcept;
+  void watch_battery(double dt_s) noexcept;
+  void watch_orders(double dt_s) noexcept;
+  void act_on_silence() noexcept;
+  [[nodiscard]] bool has_empty_battery() const noexcept { return battery_ && battery_->is_empty(); }
 
   VehicleParameters parameters_;
   runtime::TruthSample truth_;
+  PlanarMotion motion_;
+  dynamics::FailsafeState failsafe_;
+  std::optional<SimulatedBattery> battery_;
   Vec2 command_ = Vec2::Zero();  ///< the velocity that it follows
 };
 
