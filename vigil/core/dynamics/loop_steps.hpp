@@ -28,7 +28,7 @@ State<N> moved(const State<N>& from, const State<N>& rate, double dt) {
 template <int N>
 Vector<N> saturated(const Vector<N>& x, double limit) {
   if (std::isinf(limit)) return x;
-  const double squared = x.squaredNorm() / (limit * limit);
+  const double squared = x.squaredNorm() * (1.0 / (limit * limit));  // the quotient is the same for all substeps
   return x / std::sqrt(std::sqrt(1.0 + squared * squared));
 }
 
