@@ -221,13 +221,13 @@ TEST(SimulatedFleet, Each_autopilot_flies_as_its_core_model_after_all_delays) {
        {dynamics::crazyflie_vehicle(), dynamics::arducopter_vehicle(), dynamics::px4_vehicle()}) {
     FleetParameters parameters;
     parameters.vehicle.motion = model.horizontal;
-    parameters.vehicle.command_delay_s = 0.03;
-    parameters.link.packets.delay_s = 0.015;
+    parameters.vehicle.command_delay_s = 0.02;
+    parameters.link.packets.delay_s = 0.012;
     Flight flight(parameters);
     flight.ask(Action::kVelocity, {0.8, -0.3});
     flight.run(2.0);
-    // Rounded at once: 0.045 s + 0.135 s are nine ticks, where each by itself would make two and seven.
-    const double whole_s = 0.045 + model.horizontal.response_delay_s;
+    // Rounded at once: 0.032 s + 0.135 s are eight ticks, where each by itself would make two and seven.
+    const double whole_s = 0.032 + model.horizontal.response_delay_s;
     const double dead_s = static_cast<double>(std::lround(whole_s / kDt)) * kDt;
     const dynamics::PlanarLoopState after = dynamics::advance(model.horizontal, {}, {0.8, -0.3}, 2.0 - dead_s);
     EXPECT_LT((flight.truth().position - after.position).norm(), 1e-6) << name_of(model.kind);
