@@ -8,7 +8,7 @@ import pathlib
 import re
 import sys
 
-CORE = ("core/field", "core/ergodic", "core/safety", "core/dynamics")
+CORE = ("core/field", "core/ergodic", "core/safety", "core/dynamics", "core/guidance")
 
 # room: the other rooms that it may include.
 ARROWS = {
@@ -16,6 +16,7 @@ ARROWS = {
     "core/ergodic": ("core/field",),
     "core/safety": ("core/field",),
     "core/dynamics": ("core/field",),
+    "core/guidance": ("core/field",),
     "swarm": CORE,
     "runtime": (*CORE, "swarm"),
     "adapters": (*CORE, "swarm", "runtime", "protocol"),  # each adapter is a room of its own: never another one

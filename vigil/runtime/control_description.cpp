@@ -1,6 +1,7 @@
 #include <array>
 
 #include "vigil/runtime/mission_description.hpp"
+#include "vigil/swarm/parameters.hpp"
 
 namespace vigil::runtime {
 namespace {
@@ -126,9 +127,27 @@ void describe(DescriptionVisitor& visitor, SafetySection& safety) {
                  {0.0, 10.0}, safety.lag_s);
   visitor.number(
       {.name = "margin_m",
-       .meaning = "the distance added to separation_m for delay, noise and acceleration limits; `lag_aware` only",
+       .meaning =
+           "how far a drone may be from where it is believed to be, by noise, wind and limits: kept beyond walls "
+           "and no-fly buffers; `lag_aware` only",
        .unit = "m"},
       {0.0, 1000.0}, safety.margin_m);
+  visitor.number({.name = "pair_margin_m",
+                  .meaning = "the same for two drones: kept beyond separation_m; `lag_aware` only",
+                  .unit = "m",
+                  .default_text = "twice margin_m"},
+                 {0.0, 1000.0}, safety.pair_margin_m);
+  visitor.number({.name = "command_delay_s",
+                  .meaning = "from a decision to the moment at which vehicles begin to follow it: drones are steered "
+                             "from where they will be then; `lag_aware` only",
+                  .unit = "s",
+                  .default_text = "that of the simulated vehicle"},
+                 {0.0, swarm::kLongestPredictionS}, safety.command_delay_s);
+  visitor.number({.name = "observation_delay_s",
+                  .meaning = "how old observations usually are: only what is older counts as unknown; `lag_aware` only",
+                  .unit = "s",
+                  .default_text = "that of the simulated tracker"},
+                 {0.0, swarm::kLongestPredictionS}, safety.observation_delay_s);
   describe_ranges(visitor, safety);
   visitor.choice({.name = "obstacles", .meaning = "which drones the others avoid"}, kObstacles, safety.obstacles);
 }

@@ -29,6 +29,8 @@ swarm::SwarmParameters swarm_parameters(const Mission& mission, swarm::Intent fi
   parameters.look_ahead_s = mission.control.look_ahead_s;
   parameters.fade = mission.control.fade;
   parameters.barrier = barrier_parameters(mission);
+  parameters.command_delay_s = command_delay_s(mission);
+  parameters.observation_delay_s = observation_delay_s(mission);
   parameters.only_active_are_obstacles = mission.safety.obstacles == Obstacles::kActiveOnly;
   parameters.health = health_parameters(mission.health);
   parameters.first_intent = first_intent;

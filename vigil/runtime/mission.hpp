@@ -107,9 +107,12 @@ struct SafetySection {
   std::optional<double> pair_gain;           ///< default 10 for `paper`, 5 for `lag_aware`
   std::optional<double> wall_gain;
   double lag_s = 0.0;
-  double margin_m = 0.0;
-  std::optional<double> sensing_range_m;  ///< default derived
-  std::optional<double> wall_range_m;     ///< R_threat, default derived
+  double margin_m = 0.0;                      ///< beyond walls and no-fly buffers
+  std::optional<double> pair_margin_m;        ///< beyond R_s; default: twice margin_m
+  std::optional<double> command_delay_s;      ///< made up for; default: the simulated one
+  std::optional<double> observation_delay_s;  ///< made up for; default: the simulated one
+  std::optional<double> sensing_range_m;      ///< default derived
+  std::optional<double> wall_range_m;         ///< R_threat, default derived
   Obstacles obstacles = Obstacles::kAirborne;
   friend bool operator==(const SafetySection&, const SafetySection&) = default;
 };

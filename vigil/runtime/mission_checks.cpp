@@ -87,6 +87,7 @@ void check_lag(const Mission& mission, const MissionSource& source) {
   };
   if (mission.safety.lag_s > 0.0) refuse_for_paper("safety.lag_s");
   if (mission.safety.margin_m > 0.0) refuse_for_paper("safety.margin_m");
+  if (mission.safety.pair_margin_m.value_or(0.0) > 0.0) refuse_for_paper("safety.pair_margin_m");
 }
 
 void check_duration(const Mission& mission, const MissionSource& source) {
@@ -115,12 +116,13 @@ void check_ranges(const Mission& mission, const MissionSource& source) {
   const safety::BarrierParameters barrier = barrier_parameters(mission);
   const double least = safety::least_sensing_range(barrier);
   if (barrier.sensing_range_m && *barrier.sensing_range_m < least) {
-    source.refuse({.place = "",
-                   .key = "safety.sensing_range_m",
-                   .value = "",
-                   .problem = "is so short that two drones can pass the barrier within one tick",
-                   .valid = fmt::format("must be at least {:.6g} m: the barrier's radius + 2 u_max dt", least),
-                   .advice = "take a longer range, leave it out, or raise control.rate_hz"});
+    source.refuse(
+        {.place = "",
+         .key = "safety.sensing_range_m",
+         .value = "",
+         .problem = "is so short that two drones can pass the barrier within one tick",
+         .valid = fmt::format("must be at least {:.6g} m: where nobody meets the barrier behind its boundary", least),
+         .advice = "take a longer range, leave it out, or raise control.rate_hz"});
   }
   const double least_wall = barrier.wall_distance_m + barrier.u_max_m_s * barrier.dt_s;
   if (barrier.wall_range_m && *barrier.wall_range_m < least_wall) {

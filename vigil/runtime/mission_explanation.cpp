@@ -153,8 +153,8 @@ std::string explain_barrier(const Mission& mission, const safety::BarrierParamet
                        barrier.pair_gain, barrier.wall_gain);
   }
   return fmt::format(
-      "lag_aware: keeps R_z = {:.6g} m between points {:.6g} s ahead, gamma(h) = {:.6g} h for pairs, {:.6g} h "
-      "for walls",
+      "lag_aware: keeps {:.6g} m between drones that lag by {:.6g} s, gamma(h) = {:.6g} h for pairs, {:.6g} h for "
+      "walls",
       safety::barrier_radius(barrier), mission.safety.lag_s, barrier.pair_gain, barrier.wall_gain);
 }
 

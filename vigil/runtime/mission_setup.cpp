@@ -71,8 +71,17 @@ safety::BarrierParameters barrier_parameters(const Mission& mission) {
           .wall_gain = safety.wall_gain.value_or(default_gain(safety.barrier)),
           .lag_s = safety.lag_s,
           .margin_m = safety.margin_m,
+          .pair_margin_m = safety.pair_margin_m.value_or(2.0 * safety.margin_m),
           .sensing_range_m = safety.sensing_range_m,
           .wall_range_m = safety.wall_range_m};
+}
+
+double command_delay_s(const Mission& mission) {
+  return mission.safety.command_delay_s.value_or(mission.simulation.vehicle.command_delay_s);
+}
+
+double observation_delay_s(const Mission& mission) {
+  return mission.safety.observation_delay_s.value_or(mission.simulation.tracker.delay_s);
 }
 
 Vec2 target_in_field(const Mission& mission, const Vec2& point_W) {

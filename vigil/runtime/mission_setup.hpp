@@ -33,6 +33,10 @@ namespace vigil::runtime {
 [[nodiscard]] std::optional<double> memory_s(const Mission& mission);
 /// All that the filter is to keep. Its ranges stay unset where the mission leaves them to be derived.
 [[nodiscard]] safety::BarrierParameters barrier_parameters(const Mission& mission);
+/// What the controller makes up for: safety.command_delay_s and safety.observation_delay_s, by default what the
+/// simulated vehicle and tracker take.
+[[nodiscard]] double command_delay_s(const Mission& mission);
+[[nodiscard]] double observation_delay_s(const Mission& mission);
 
 /// A target point (world frame) in the field frame, on the field's border where it lies outside.
 [[nodiscard]] Vec2 target_in_field(const Mission& mission, const Vec2& point_W);

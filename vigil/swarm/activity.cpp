@@ -37,12 +37,14 @@ Activity phase_of(const DroneMemory& memory) {
   if (memory.intent == Intent::kLand || mode == VehicleMode::kLanding) return Activity::kLanding;
   if (mode == VehicleMode::kTakingOff) return Activity::kTakingOff;
   if (memory.intent == Intent::kHold || memory.intent == Intent::kStayDown) return Activity::kHeld;
+  if (memory.intent == Intent::kGoTo) return Activity::kTravelling;
   return Activity::kActive;
 }
 
 /// Nothing takes off by itself: a drone that came down, asked or unasked, waits there for an operator.
 void settle_intent(DroneMemory& memory) {
-  const bool wants_the_air = memory.intent == Intent::kCover || memory.intent == Intent::kHold;
+  const bool wants_the_air =
+      memory.intent == Intent::kCover || memory.intent == Intent::kHold || memory.intent == Intent::kGoTo;
   if (on_ground(memory.last_good.mode) && (wants_the_air || memory.intent == Intent::kLand))
     memory.intent = Intent::kStayDown;
   if (memory.last_good.mode == VehicleMode::kFlying && memory.intent == Intent::kTakeOff)
@@ -70,7 +72,7 @@ void remember(DroneMemory& memory, const DroneObservation& observed, double dt_s
   last.battery = observed.battery;
 }
 
-bool apply_wish(DroneMemory& memory, CommandKind wish) noexcept {
+bool apply_wish(DroneMemory& memory, CommandKind wish, const Vec2& place) noexcept {
   const bool airborne = in_the_air(memory);
   const bool grounded = on_ground(memory.last_good.mode);
   const Intent intent = memory.intent;
@@ -91,10 +93,15 @@ bool apply_wish(DroneMemory& memory, CommandKind wish) noexcept {
       return set_if(airborne, Intent::kLand);
     case CommandKind::kHold:
       return set_if(airborne && intent != Intent::kOverride, Intent::kHold);
+    case CommandKind::kGoTo:
+      if (!airborne || intent == Intent::kOverride || intent == Intent::kMarkedFailed) return false;
+      memory.place = place;
+      return set_if(true, Intent::kGoTo);
     case CommandKind::kOverride:
       return set_if(airborne, Intent::kOverride);
     case CommandKind::kResume:
-      return set_if(intent == Intent::kHold || intent == Intent::kMarkedFailed, Intent::kCover);
+      return set_if(intent == Intent::kHold || intent == Intent::kGoTo || intent == Intent::kMarkedFailed,
+                    Intent::kCover);
     case CommandKind::kGiveBack:
       return set_if(intent == Intent::kOverride, Intent::kCover);
     case CommandKind::kSetTarget:
@@ -111,7 +118,8 @@ void judge(DroneMemory& memory, const HealthParameters& health, double dt_s) noe
   if (fault == Activity::kActive) {
     memory.healthy_s += dt_s;
     if (memory.healthy_s >= health.recovery_s) memory.is_recovering = false;
-    memory.activity = phase == Activity::kActive && memory.is_recovering ? Activity::kRecovering : phase;
+    const bool would_fly = phase == Activity::kActive || phase == Activity::kTravelling;
+    memory.activity = would_fly && memory.is_recovering ? Activity::kRecovering : phase;
     return;
   }
   memory.healthy_s = 0.0;
@@ -136,6 +144,7 @@ Action action_for(const DroneMemory& memory) noexcept {
     case Activity::kActive:
     case Activity::kHeld:
     case Activity::kRecovering:
+    case Activity::kTravelling:
     case Activity::kTrackingLost:
     case Activity::kLinkLost:
       return memory.intent == Intent::kLand ? Action::kLand : Action::kVelocity;

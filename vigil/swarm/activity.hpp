@@ -24,6 +24,7 @@ enum class Intent : std::uint8_t {
   kCover,     ///< until it is on the ground, for whatever reason, then kStayDown: nothing takes off by itself
   kLand,
   kHold,
+  kGoTo,  ///< to DroneMemory::place, and wait there
   kMarkedFailed,
   kEmergencyStop,  ///< until a take-off is asked for on the ground
   kOverride
@@ -44,7 +45,8 @@ enum class Activity : std::uint8_t {
   kLinkLost,       ///< it has not been heard for too long
   kBatteryLow,     ///< below the reserve: it lands
   kHeld,           ///< an operator holds it, or it flies although nobody asked it to
-  kRecovering      ///< healthy again, for less than recovery_s
+  kRecovering,     ///< healthy again, for less than recovery_s
+  kTravelling      ///< on its way to a place, or waiting there
 };
 
 /// What the vehicle is asked to do, every tick anew (so a lost message costs one tick).
@@ -53,6 +55,7 @@ enum class Action : std::uint8_t { kNone, kTakeOff, kLand, kVelocity, kStopMotor
 /// What the swarm remembers of one drone between ticks.
 struct DroneMemory {
   Intent intent = Intent::kStayDown;
+  Vec2 place = Vec2::Zero();   ///< kGoTo: where to, field frame
   DroneObservation last_good;  ///< the newest observation whose numbers were usable; its ages count on
   double healthy_s = 0.0;      ///< how long nothing has been wrong with it
   bool is_recovering = false;  ///< something was wrong with it: recovery_s applies
@@ -62,11 +65,12 @@ struct DroneMemory {
 /// Takes this tick's observation into `memory`: keeps the last usable one, with ages that count on.
 void remember(DroneMemory& memory, const DroneObservation& observed, double dt_s) noexcept;
 
-/// Changes `memory.intent` as the operator wishes. False where the wish makes no sense now and is refused: take-off of
-/// one that is not on the ground, that a pilot has or that is marked failed; resuming one that is neither held nor
-/// marked failed; giving back one that nobody took over; landing, holding or taking over one that is not in the air;
-/// anything but another emergency stop for one whose motors were stopped in the air.
-[[nodiscard]] bool apply_wish(DroneMemory& memory, CommandKind wish) noexcept;
+/// Changes `memory.intent` as the operator wishes; `place` is where kGoTo leads, checked by the caller. False where the
+/// wish makes no sense now and is refused: take-off of one that is not on the ground, that a pilot has or that is
+/// marked failed; resuming one that is neither held nor on its way to a place, nor marked failed; giving back one that
+/// nobody took over; landing, holding, sending or taking over one that is not in the air; anything but another
+/// emergency stop for one whose motors were stopped in the air.
+[[nodiscard]] bool apply_wish(DroneMemory& memory, CommandKind wish, const Vec2& place = Vec2::Zero()) noexcept;
 
 /// Decides memory.activity (12) for this tick, and moves the intent on where the vehicle has fulfilled it.
 void judge(DroneMemory& memory, const HealthParameters& health, double dt_s) noexcept;

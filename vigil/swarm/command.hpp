@@ -24,7 +24,8 @@ enum class CommandKind : std::uint8_t {
   kTakeOff,
   kLand,
   kHold,           ///< hover, out of coverage, still avoiding others
-  kResume,         ///< back to coverage after kHold or kMarkFailed
+  kGoTo,           ///< fly to `place` and wait there, out of coverage
+  kResume,         ///< back to coverage after kHold, kGoTo or kMarkFailed
   kMarkFailed,     ///< an operator declares it failed: whatever it does, it is not ours
   kEmergencyStop,  ///< motors off
   kOverride,       ///< a pilot takes it
@@ -37,6 +38,7 @@ enum class CommandKind : std::uint8_t {
 struct Command {
   CommandKind kind = CommandKind::kHold;
   std::optional<DroneId> drone;                  ///< none: all drones
+  Vec2 place = Vec2::Zero();                     ///< kGoTo only: field frame, inside the field
   std::shared_ptr<const CoverageTarget> target;  ///< kSetTarget only, never null there
 };
 

@@ -13,12 +13,13 @@ namespace vigil::swarm {
 
 inline constexpr std::array<std::string_view, 8> kModeWords{"unknown", "grounded", "taking_off", "flying",
                                                             "landing", "falling",  "manual",     "failed"};
-inline constexpr std::array<std::string_view, 14> kActivityWords{
-    "active",        "never_seen",     "grounded",      "taking_off", "landing",     "emergency_stop", "overridden",
-    "marked_failed", "vehicle_failed", "tracking_lost", "link_lost",  "battery_low", "held",           "recovering"};
+inline constexpr std::array<std::string_view, 15> kActivityWords{
+    "active",         "never_seen",  "grounded",      "taking_off",     "landing",
+    "emergency_stop", "overridden",  "marked_failed", "vehicle_failed", "tracking_lost",
+    "link_lost",      "battery_low", "held",          "recovering",     "travelling"};
 inline constexpr std::array<std::string_view, 5> kActionWords{"none", "take_off", "land", "velocity", "stop_motors"};
-inline constexpr std::array<std::string_view, 10> kCommandWords{
-    "take_off",       "land",     "hold",      "resume",     "mark_failed",
+inline constexpr std::array<std::string_view, 11> kCommandWords{
+    "take_off",       "land",     "hold",      "go_to",      "resume",      "mark_failed",
     "emergency_stop", "override", "give_back", "set_target", "start_afresh"};
 inline constexpr std::array<std::string_view, 3> kIdleWords{"none", "no_targets", "no_active_drone"};
 
@@ -51,7 +52,7 @@ template <typename Enum>
 }
 
 static_assert(name_of(VehicleMode::kFailed) == kModeWords.back());
-static_assert(name_of(Activity::kRecovering) == kActivityWords.back());
+static_assert(name_of(Activity::kTravelling) == kActivityWords.back());
 static_assert(name_of(Action::kStopMotors) == kActionWords.back());
 static_assert(name_of(CommandKind::kStartAfresh) == kCommandWords.back());
 static_assert(name_of(Idle::kNoActiveDrone) == kIdleWords.back());

@@ -11,6 +11,9 @@
 
 namespace vigil::swarm {
 
+/// No prediction adds more than the orders of so long.
+inline constexpr double kLongestPredictionS = 2.0;
+
 /// What the controller is set up with; it does not change in flight.
 struct SwarmParameters {
   field::Field field;
@@ -25,6 +28,11 @@ struct SwarmParameters {
   /// kLookAhead: how far it looks; none: as long as a drone takes to cross 0.6 of its share of the field.
   std::optional<double> look_ahead_s;
   safety::BarrierParameters barrier;
+  /// From a tick to the moment at which its orders begin to act on a vehicle; kLagAware only. Within
+  /// [0, kLongestPredictionS].
+  double command_delay_s = 0.0;
+  /// How old observations usually are. Only what is older counts as unknown: the way up to here is predicted.
+  double observation_delay_s = 0.0;
   /// The paper's reading: a drone that is not active is no obstacle, wherever it is.
   bool only_active_are_obstacles = false;
   HealthParameters health;

@@ -25,6 +25,18 @@ ergodic::LookAheadParameters look_ahead_parameters(const SwarmParameters& parame
   return result;
 }
 
+guidance::SeekerParameters seeker_parameters(const SwarmParameters& parameters) {
+  return {.u_max_m_s = parameters.barrier.u_max_m_s,
+          .spacing_m = safety::barrier_radius(parameters.barrier),
+          .lag_s = parameters.barrier.lag_s,
+          .dt_s = parameters.dt_s};
+}
+
+/// A drone that was seen longer ago is not steered any more.
+double longest_prediction_s(const SwarmParameters& parameters) {
+  return std::min(parameters.health.tracking_timeout_s + parameters.command_delay_s, kLongestPredictionS);
+}
+
 bool fits(const CoverageTarget& target, const ergodic::Basis& basis) {
   const bool has_shape =
       target.phi_k.rows() == basis.indices_per_axis() && target.phi_k.cols() == basis.indices_per_axis();
@@ -33,7 +45,8 @@ bool fits(const CoverageTarget& target, const ergodic::Basis& basis) {
 
 /// Whether the filter computes the drone's velocity: it flies by our commands, and where it is, is known.
 bool is_steered(Activity activity) {
-  return activity == Activity::kActive || activity == Activity::kHeld || activity == Activity::kRecovering;
+  return activity == Activity::kActive || activity == Activity::kTravelling || activity == Activity::kHeld ||
+         activity == Activity::kRecovering;
 }
 
 /// Whether it goes up or down by itself over one place: commanded to stand still, which is what a drone that gives way
@@ -60,9 +73,12 @@ SwarmState::SwarmState(const SwarmParameters& parameters)
       kernel_(basis_),
       statistics_(basis_, parameters.accounting, parameters.memory_s),
       look_ahead_(basis_, look_ahead_parameters(parameters), parameters.drones),
+      goal_seeker_(seeker_parameters(parameters), parameters.drones),
       filter_(parameters.barrier, parameters.field, parameters.drones),
+      flown_(parameters.drones, parameters.dt_s, longest_prediction_s(parameters)),
       target_(no_target(basis_)),
       drones_(parameters.drones),
+      motions_(parameters.drones),
       bodies_(parameters.drones),
       u_nom_(parameters.drones, Vec2::Zero()),
       u_(parameters.drones, Vec2::Zero()),
@@ -76,6 +92,8 @@ SwarmState::SwarmState(const SwarmParameters& parameters)
   departures_.reserve(parameters.drones);
   slopes_.reserve(parameters.drones);
   active_u_.reserve(parameters.drones);
+  travellers_.reserve(parameters.drones);
+  travel_u_.reserve(parameters.drones);
 }
 
 void SwarmState::set_target(const CoverageTarget& target) noexcept {
@@ -91,7 +109,8 @@ void SwarmState::set_target(const CoverageTarget& target) noexcept {
 
 void SwarmState::take_wish(const Command& command, Snapshot& out) noexcept {
   const auto wish = [&](std::size_t index) {
-    const bool accepted = apply_wish(drones_[index], command.kind);
+    const bool is_possible = command.kind != CommandKind::kGoTo || is_inside(command.place);
+    const bool accepted = is_possible && apply_wish(drones_[index], command.kind, command.place);
     Event event{.kind = accepted ? EventKind::kWishAccepted : EventKind::kWishRefused, .drone = DroneId(index)};
     event.wish = command.kind;
     out.note(event);
@@ -142,6 +161,23 @@ void SwarmState::judge_drones(Snapshot& out) noexcept {
   }
 }
 
+bool SwarmState::is_inside(const Vec2& place) const noexcept {
+  return place.allFinite() && parameters_.field.contains(place);
+}
+
+/// What observations and orders take is made up for by what was ordered meanwhile. Nothing is known to follow our
+/// orders but a drone that is steered, and the paper's barrier knows of no delay.
+void SwarmState::predict_drones() noexcept {
+  for (std::size_t index = 0; index < drones_.size(); ++index) {
+    const DroneObservation& known = drones_[index].last_good;
+    motions_[index] = {known.position, known.velocity};
+    const bool is_paper = parameters_.barrier.kind == safety::BarrierKind::kPaper;
+    if (is_paper || !is_steered(drones_[index].activity)) continue;
+    const double span_s = known.age_s + parameters_.command_delay_s;
+    motions_[index] = flown_.ahead(index, motions_[index], span_s, parameters_.barrier.lag_s);
+  }
+}
+
 /// I_a(t) of (13).
 void SwarmState::gather_active() noexcept {
   active_before_.swap(active_);
@@ -153,7 +189,7 @@ void SwarmState::gather_active() noexcept {
     active_.push_back(index);
     const DroneObservation& known = drones_[index].last_good;
     active_positions_.push_back(known.position);
-    departures_.push_back({.drone = index, .position = known.position, .velocity = known.velocity});
+    departures_.push_back({.drone = index, .position = motions_[index].position, .velocity = motions_[index].velocity});
   }
   if (active_ != active_before_) ++active_set_;
 }
@@ -205,19 +241,37 @@ void SwarmState::cover(Snapshot& out) noexcept {
   for (std::size_t i = 0; i < active_.size(); ++i) u_nom_[active_[i]] = active_u_[i];
 }
 
+/// Whoever has a place to go to, whether or not anything is to be covered.
+void SwarmState::seek_goals() noexcept {
+  travellers_.clear();
+  for (std::size_t index = 0; index < drones_.size(); ++index) {
+    if (drones_[index].activity != Activity::kTravelling) continue;
+    travellers_.push_back({.drone = index,
+                           .position = motions_[index].position,
+                           .velocity = motions_[index].velocity,
+                           .goal = drones_[index].place,
+                           .flown = u_[index]});
+  }
+  travel_u_.resize(travellers_.size());  // within its capacity
+  goal_seeker_.steer(travellers_, travel_u_);
+  for (std::size_t i = 0; i < travellers_.size(); ++i) u_nom_[travellers_[i].drone] = travel_u_[i];
+}
+
 double SwarmState::assumed_age(const DroneMemory& drone) const noexcept {
   const bool is_lost = !is_steered(drone.activity);
   // The paper's barrier knows no age; only a drone that is lost is given more room.
   if (parameters_.barrier.kind == safety::BarrierKind::kPaper && !is_lost) return 0.0;
   // Once its position or its link is lost a drone is told to stop, or stops by its own failsafe: it wanders no farther.
   const double longest = parameters_.health.tracking_timeout_s + parameters_.health.link_timeout_s;
-  return std::min(drone.last_good.age_s, longest);
+  const double predicted = is_lost ? 0.0 : parameters_.observation_delay_s;
+  return std::clamp(drone.last_good.age_s - predicted, 0.0, longest);
 }
 
-safety::Body SwarmState::body_of(const DroneMemory& drone) const noexcept {
+safety::Body SwarmState::body_of(std::size_t index) const noexcept {
+  const DroneMemory& drone = drones_[index];
   safety::Body body;
-  body.position = drone.last_good.position;
-  body.velocity = drone.last_good.velocity;
+  body.position = motions_[index].position;
+  body.velocity = motions_[index].velocity;
   body.age_s = assumed_age(drone);
   body.is_controlled = is_steered(drone.activity) || stands_still(drone.activity);
   // Others clear the air above a drone that is to take off.
@@ -228,7 +282,7 @@ safety::Body SwarmState::body_of(const DroneMemory& drone) const noexcept {
 }
 
 void SwarmState::keep_safe(Snapshot& out) noexcept {
-  for (std::size_t index = 0; index < drones_.size(); ++index) bodies_[index] = body_of(drones_[index]);
+  for (std::size_t index = 0; index < drones_.size(); ++index) bodies_[index] = body_of(index);
   filter_.run(bodies_, target_.no_fly, u_nom_, u_, reports_);
   out.fallback = std::any_of(reports_.begin(), reports_.end(), [](const auto& report) { return report.fallback; });
 }
@@ -245,6 +299,9 @@ bool SwarmState::has_clear_air(std::size_t index) const noexcept {
 }
 
 void SwarmState::write_orders(Snapshot& out) noexcept {
+  for (std::size_t index = 0; index < drones_.size(); ++index)
+    if (action_for(drones_[index]) != Action::kVelocity) u_[index].setZero();
+  flown_.remember(u_);
   for (std::size_t index = 0; index < drones_.size(); ++index) {
     const DroneMemory& drone = drones_[index];
     DroneSnapshot& to = out.drones[index];
@@ -275,8 +332,10 @@ void tick(SwarmState& state, std::span<const DroneObservation> observations, std
   state.remember_drones(observations);
   state.take_commands(commands, out);
   state.judge_drones(out);
+  state.predict_drones();
   state.gather_active();
   state.cover(out);
+  state.seek_goals();
   state.keep_safe(out);
   state.write_orders(out);
   ++state.ticks_;

@@ -7,8 +7,10 @@
 #include "vigil/core/ergodic/coverage_statistics.hpp"
 #include "vigil/core/ergodic/kernel.hpp"
 #include "vigil/core/ergodic/look_ahead.hpp"
+#include "vigil/core/guidance/goal_seeker.hpp"
 #include "vigil/core/safety/filter.hpp"
 #include "vigil/swarm/command.hpp"
+#include "vigil/swarm/flown_orders.hpp"
 #include "vigil/swarm/observation.hpp"
 #include "vigil/swarm/parameters.hpp"
 #include "vigil/swarm/snapshot.hpp"
@@ -42,19 +44,24 @@ class SwarmState {
   void measure_coverage(Snapshot& out) noexcept;
   void go_down_the_gradient() noexcept;
   void look_ahead() noexcept;
+  void seek_goals() noexcept;
+  void predict_drones() noexcept;
   void keep_safe(Snapshot& out) noexcept;
   void write_orders(Snapshot& out) noexcept;
   /// Nobody flies so close above a grounded drone that it would come up into its way.
   [[nodiscard]] bool has_clear_air(std::size_t index) const noexcept;
-  [[nodiscard]] safety::Body body_of(const DroneMemory& drone) const noexcept;
+  [[nodiscard]] safety::Body body_of(std::size_t index) const noexcept;
   [[nodiscard]] double assumed_age(const DroneMemory& drone) const noexcept;
+  [[nodiscard]] bool is_inside(const Vec2& place) const noexcept;
 
   SwarmParameters parameters_;
   ergodic::Basis basis_;
   ergodic::Kernel kernel_;
   ergodic::CoverageStatistics statistics_;
   ergodic::LookAhead look_ahead_;
+  guidance::GoalSeeker goal_seeker_;
   safety::Filter filter_;
+  FlownOrders flown_;
   CoverageTarget target_;
   double fade_delta_ = 0.0;
   double first_metric_ = 0.0;
@@ -70,6 +77,9 @@ class SwarmState {
   std::vector<ergodic::Departure> departures_;  ///< of the active drones
   std::vector<Vec2> slopes_;
   std::vector<Vec2> active_u_;
+  std::vector<Motion> motions_;  ///< of all drones, as they will be when this tick's orders begin to act
+  std::vector<guidance::Traveller> travellers_;
+  std::vector<Vec2> travel_u_;
   std::vector<safety::Body> bodies_;
   std::vector<Vec2> u_nom_;
   std::vector<Vec2> u_;

@@ -23,6 +23,10 @@ double margin_of(const BarrierParameters& parameters) {
   return parameters.kind == BarrierKind::kLagAware ? parameters.margin_m : 0.0;
 }
 
+double pair_margin_of(const BarrierParameters& parameters) {
+  return parameters.kind == BarrierKind::kLagAware ? parameters.pair_margin_m : 0.0;
+}
+
 double gamma(const BarrierParameters& parameters, double gain, double h) {
   return parameters.kind == BarrierKind::kPaper ? gain * h * h * h : gain * h;
 }
@@ -41,20 +45,22 @@ double escape_speed(const BarrierParameters& parameters, double depth, double cl
   return std::min({kEscapeRate * depth, 0.5 * parameters.u_max_m_s, room});
 }
 
-/// n.u >= -gamma_d(d^2 - R^2) / (2 d) + closing_speed: the barrier on squared distances.
-double squared_offset(const BarrierParameters& parameters, double gain, double distance, double radius, double hold_s,
-                      double closing_speed) {
+/// n.u >= -gamma_d(d^2 - R^2) / (2 lever) + closing_speed: a barrier h = d^2 - R^2 with the gradient 2 lever n.
+double squared_offset(const BarrierParameters& parameters, const PairBarrier& barrier, double distance, double lever) {
+  const double radius = barrier.radius_m;
+  const double closing_speed = barrier.closing_speed_m_s;
   if (distance < radius - kOnBoundary)
     return closing_speed + escape_speed(parameters, radius - distance, closing_speed);
-  if (distance <= kCoincident) return closing_speed;  // only where the radius is 0
+  if (lever <= kCoincident) return closing_speed;  // only where the radius is 0
   const double h = std::max(0.0, (distance - radius) * (distance + radius));
-  return closing_speed - gamma_d(parameters, gain, h, hold_s) / (2.0 * distance);
+  return closing_speed - gamma_d(parameters, barrier.gain, h, barrier.hold_s) / (2.0 * lever);
 }
 
 /// The barrier of something that stands still, at a signed distance.
 double fixed_offset(const BarrierParameters& parameters, double distance, double radius) {
   if (parameters.kind == BarrierKind::kPaper)
-    return squared_offset(parameters, parameters.wall_gain, distance, radius, parameters.dt_s, 0.0);
+    return squared_offset(parameters, {.radius_m = radius, .gain = parameters.wall_gain, .hold_s = parameters.dt_s},
+                          distance, distance);
   if (distance < radius - kOnBoundary) return escape_speed(parameters, radius - distance, 0.0);
   return -gamma_d(parameters, parameters.wall_gain, std::max(0.0, distance - radius), parameters.dt_s);
 }
@@ -82,10 +88,12 @@ Vec2 outward(const field::Segment& edge) {
 }
 
 double reach_of_row(const BarrierParameters& parameters, const PairBarrier& barrier) {
-  const double closing = parameters.u_max_m_s + barrier.closing_speed_m_s;  // gamma_d(h) = 2 d closing there
+  const double closing = parameters.u_max_m_s + barrier.closing_speed_m_s;  // gamma_d(h) = |a| closing there
+  // h >= |z|^2 - R^2 - w^2 and |a| <= 2 (|z| + w) with w = lag |v_ij| at its greatest.
+  const double w = 2.0 * barrier.lag_s * parameters.u_max_m_s;
   const auto by_rate = [&](double rate) {
     const double half = closing / rate;
-    return half + std::hypot(half, barrier.radius_m);
+    return half + std::sqrt((half + w) * (half + w) + barrier.radius_m * barrier.radius_m);
   };
   const double held = by_rate(1.0 / barrier.hold_s);
   if (parameters.kind == BarrierKind::kLagAware) return std::max(held, by_rate(barrier.gain));
@@ -100,6 +108,23 @@ double reach_of_row(const BarrierParameters& parameters, const PairBarrier& barr
     (slack(middle) < 0.0 ? low : high) = middle;
   }
   return std::max(held, high);
+}
+
+/// h of a pair over the next tick: h(t + dt) >= h + (relief + 2 half_slope . u_ij) dt for every u_ij that is held, [5].
+struct SampledPair {
+  double distance_m = 0.0;  ///< sqrt(h + R^2): |p_ij| without a lag
+  Vec2 half_slope = Vec2::Zero();
+  double relief_per_s = 0.0;
+};
+
+SampledPair sample(const PairBarrier& barrier, double dt, const Vec2& z_ij, const Vec2& v_ij) {
+  const double lag = barrier.lag_s;
+  if (lag <= 0.0) return {.distance_m = z_ij.norm(), .half_slope = z_ij, .relief_per_s = 0.0};
+  const double fade = std::exp(-dt / lag);  // what a tick leaves of v - u
+  const double swing = lag * lag * v_ij.squaredNorm();
+  return {.distance_m = std::sqrt(std::max(0.0, z_ij.squaredNorm() - swing)),
+          .half_slope = z_ij - lag * lag * fade * (1.0 - fade) / dt * v_ij,
+          .relief_per_s = swing * (1.0 - fade * fade) / dt};
 }
 
 double closing_speed_of(const Body& other) {
@@ -120,8 +145,10 @@ PairBarrier barrier_of_distance(const BarrierParameters& parameters, const Body&
   PairBarrier barrier;
   barrier.gain = gain;
   if (other.is_controlled) {
-    // Where |p_ij| is least, p_ij.v_ij = 0 and |z_ij|^2 = |p_ij|^2 + lag^2 |v_ij|^2, |v_ij| <= 2 u_max.
-    barrier.radius_m = std::hypot(distance, 2.0 * lag * u_max) + drift;
+    // Between two samples with h >= 0 the sum may dip below 0, by no more than 5 (u_max dt)^2: [6].
+    const double dip = lag > 0.0 ? std::sqrt(5.0) * u_max * parameters.dt_s : 0.0;
+    barrier.radius_m = std::hypot(distance, dip) + drift;
+    barrier.lag_s = lag;
     barrier.hold_s = 2.0 * parameters.dt_s;
   } else {
     // With z_j = p_j: |z_ij|^2 = |p_ij|^2 + 2 lag p_ij.v_j + lag^2 |v_i|^2 there, whatever the other's velocity does.
@@ -145,7 +172,8 @@ double derived_sensing_range(const BarrierParameters& parameters) {
 }
 
 double least_sensing_range(const BarrierParameters& parameters) {
-  return barrier_radius(parameters) + 2.0 * parameters.u_max_m_s * parameters.dt_s;
+  const double w = 2.0 * lag_of(parameters) * parameters.u_max_m_s;
+  return w + std::hypot(barrier_radius(parameters), w) + 2.0 * parameters.u_max_m_s * parameters.dt_s;
 }
 
 Vec2 barrier_point(const BarrierParameters& parameters, const Body& body) {
@@ -154,7 +182,7 @@ Vec2 barrier_point(const BarrierParameters& parameters, const Body& body) {
 }
 
 PairBarrier separation_barrier(const BarrierParameters& parameters, const Body& own, const Body& other) {
-  return barrier_of_distance(parameters, other, parameters.separation_m + margin_of(parameters),
+  return barrier_of_distance(parameters, other, parameters.separation_m + pair_margin_of(parameters),
                              drift_of(parameters, own, other), parameters.pair_gain);
 }
 
@@ -171,12 +199,12 @@ double wall_reserve(const BarrierParameters& parameters, const Body& own) {
 }
 
 std::optional<HalfPlane> pair_row(const BarrierParameters& parameters, const PairBarrier& barrier, const Vec2& z_ij,
-                                  int own, int other, Priority priority) {
-  const double distance = z_ij.norm();
-  const Vec2 normal = distance > kCoincident ? Vec2(z_ij / distance) : parting_direction(own, other);
-  const double offset =
-      squared_offset(parameters, barrier.gain, distance, barrier.radius_m, barrier.hold_s, barrier.closing_speed_m_s);
-  return binding(parameters, {normal, offset, priority});
+                                  const Vec2& v_ij, int own, int other, Priority priority) {
+  const SampledPair pair = sample(barrier, parameters.dt_s, z_ij, v_ij);
+  const double lever = pair.half_slope.norm();
+  const double offset = squared_offset(parameters, barrier, pair.distance_m, lever);
+  if (lever <= kCoincident) return binding(parameters, {parting_direction(own, other), offset, priority});
+  return binding(parameters, {pair.half_slope / lever, offset - 0.25 * pair.relief_per_s / lever, priority});
 }
 
 double pair_reach(const BarrierParameters& parameters, const PairBarrier& barrier) {

@@ -21,7 +21,8 @@ namespace vigil::safety {
 
 /// What keeps a drone away from one other body.
 struct PairBarrier {
-  double radius_m = 0.0;  ///< h = |z_ij|^2 - radius^2
+  double radius_m = 0.0;  ///< h = |z_ij|^2 - (lag |v_ij|)^2 - radius^2
+  double lag_s = 0.0;     ///< of both bodies; 0 where one is not controlled, or for kPaper
   double gain = 0.0;      ///< of gamma
   double hold_s = 0.0;    ///< gamma_d(h) = min(gamma(h), h / hold): 2 dt where both give way, dt where one does
   double closing_speed_m_s = 0.0;  ///< how fast the other may come closer by itself
@@ -44,12 +45,15 @@ struct PairBarrier {
 /// since it was seen.
 [[nodiscard]] double wall_reserve(const BarrierParameters& parameters, const Body& own);
 
-/// 2 z_ij . u_i >= -gamma_d(h) + 2 |z_ij| closing_speed, divided by 2 |z_ij|; for h < 0 the speed of escape.
-/// `own` and `other` are the bodies' indices: they choose the direction where both points coincide.
+/// With lag 0: 2 z_ij . u_i >= -gamma_d(h) + 2 |z_ij| closing_speed, divided by 2 |z_ij|; with a lag the exact change
+/// of h over a tick, half of it: [5]. For h < 0 the speed of escape. z_ij and v_ij are the differences of the bodies'
+/// points and velocities. `own` and `other` are the bodies' indices: they choose the direction where both points
+/// coincide.
 [[nodiscard]] std::optional<HalfPlane> pair_row(const BarrierParameters& parameters, const PairBarrier& barrier,
-                                                const Vec2& z_ij, int own, int other, Priority priority);
+                                                const Vec2& z_ij, const Vec2& v_ij, int own, int other,
+                                                Priority priority);
 
-/// The distance of z beyond which pair_row() leaves the row out.
+/// The distance of z beyond which pair_row() leaves the row out, whatever the velocities up to u_max.
 [[nodiscard]] double pair_reach(const BarrierParameters& parameters, const PairBarrier& barrier);
 
 /// The distance from z to a wall of the field (0 left, 1 right, 2 bottom, 3 top): negative outside.

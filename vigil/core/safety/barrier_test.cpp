@@ -29,6 +29,7 @@ BarrierParameters lag_aware() {
   parameters.wall_gain = 5.0;
   parameters.lag_s = 0.3;
   parameters.margin_m = 0.02;
+  parameters.pair_margin_m = 0.03;
   return parameters;
 }
 
@@ -48,7 +49,7 @@ Body stranger(double speed) {
 PairBarrier of_drones(const BarrierParameters& parameters) { return separation_barrier(parameters, Body{}, Body{}); }
 
 std::optional<HalfPlane> row_at(const BarrierParameters& parameters, const PairBarrier& barrier, double distance) {
-  return pair_row(parameters, barrier, Vec2(distance, 0.0), 0, 1, Priority::kSeparation);
+  return pair_row(parameters, barrier, Vec2(distance, 0.0), Vec2::Zero(), 0, 1, Priority::kSeparation);
 }
 
 TEST(Barrier, The_papers_pair_row_is_equation_10) {
@@ -73,13 +74,13 @@ TEST(Barrier, The_papers_wall_row_is_equation_11) {
   EXPECT_NEAR(2.0 * d * row->offset, -10.0 * h * h * h, 1e-14);
 }
 
-TEST(Barrier, The_lag_aware_rows_are_linear_in_h_on_the_point_p_plus_lag_v) {
+TEST(Barrier, The_lag_aware_rows_are_linear_in_h) {
   const BarrierParameters parameters = lag_aware();
-  EXPECT_NEAR(barrier_radius(parameters), std::hypot(0.22, 2.0 * 0.3 * 0.3), 1e-15);
+  EXPECT_NEAR(barrier_radius(parameters), std::hypot(0.23, std::sqrt(5.0) * 0.3 * 0.02), 1e-15);
   Body body = at(1.0, 1.0);
   body.velocity = Vec2(0.1, -0.2);
   EXPECT_LT((barrier_point(parameters, body) - Vec2(1.03, 0.94)).norm(), 1e-15);
-  const double d = 0.35;
+  const double d = 0.26;
   const double h = d * d - std::pow(barrier_radius(parameters), 2);
   const auto row = row_at(parameters, of_drones(parameters), d);
   ASSERT_TRUE(row);
@@ -88,6 +89,51 @@ TEST(Barrier, The_lag_aware_rows_are_linear_in_h_on_the_point_p_plus_lag_v) {
       wall_row(parameters, {3.0, 3.0}, Vec2(0.2, 1.5), 0, wall_reserve(parameters, Body{}), Priority::kWall);
   ASSERT_TRUE(wall);
   EXPECT_NEAR(wall->offset, -5.0 * (0.2 - 0.17 - 0.02), 1e-15);
+}
+
+/// Two drones with v' = (u - v)/lag, by their differences.
+struct LaggingPair {
+  Vec2 p;
+  Vec2 v;
+  [[nodiscard]] LaggingPair after(double time, double lag, const Vec2& u) const {
+    const double fade = std::exp(-time / lag);
+    return {p + time * u + lag * (1.0 - fade) * (v - u), u + fade * (v - u)};
+  }
+  [[nodiscard]] double h(double lag, double radius) const {
+    return p.squaredNorm() + 2.0 * lag * p.dot(v) - radius * radius;
+  }
+};
+
+TEST(Barrier, A_pair_whose_rows_hold_keeps_h_at_the_next_sample_and_its_distance_in_between) {
+  std::mt19937_64 random(9);
+  std::uniform_real_distribution<double> share(-1.0, 1.0);
+  int near = 0;
+  for (int i = 0; i < 200000; ++i) {
+    BarrierParameters parameters = lag_aware();
+    parameters.dt_s = i % 2 == 0 ? 0.02 : 0.2;
+    parameters.pair_gain = i % 3 == 0 ? 5.0 : 1e9;
+    const PairBarrier barrier = of_drones(parameters);
+    const LaggingPair pair{0.5 * Vec2(share(random), share(random)), 0.4 * Vec2(share(random), share(random))};
+    const double h = pair.h(barrier.lag_s, barrier.radius_m);
+    if (h < 0.0) continue;
+    const Vec2 z = pair.p + barrier.lag_s * pair.v;
+    const auto own = pair_row(parameters, barrier, z, pair.v, 0, 1, Priority::kMargin);
+    const auto other = pair_row(parameters, barrier, -z, -pair.v, 1, 0, Priority::kMargin);
+    if (!own || !other) continue;
+    ++near;
+    EXPECT_LE(own->offset, 0.0);  // standing still is allowed
+    // Both at the least that their rows allow, and as fast as they like along them.
+    const Vec2 along(-own->normal.y(), own->normal.x());
+    const Vec2 u = own->offset * own->normal - other->offset * other->normal + 0.6 * share(random) * along;
+    const double used = 2.0 * std::min(parameters.pair_gain * h, h / (2.0 * parameters.dt_s)) * parameters.dt_s;
+    EXPECT_GE(pair.after(parameters.dt_s, barrier.lag_s, u).h(barrier.lag_s, barrier.radius_m), h - used - 1e-12);
+    if (u.norm() > 2.0 * parameters.u_max_m_s) continue;
+    for (int part = 1; part < 8; ++part) {
+      const LaggingPair then = pair.after(part * parameters.dt_s / 8.0, barrier.lag_s, u);
+      EXPECT_GE(then.h(barrier.lag_s, 0.23), -1e-12);
+    }
+  }
+  EXPECT_GT(near, 10000);
 }
 
 TEST(Barrier, However_large_the_gain_a_tick_uses_up_no_more_than_h) {
@@ -114,16 +160,34 @@ TEST(Barrier, The_papers_numbers_give_a_sensing_range_of_61_centimetres) {
 }
 
 TEST(Barrier, Just_inside_the_derived_range_a_pair_has_a_row_and_just_outside_none) {
-  for (const BarrierParameters& parameters : {paper(), lag_aware()}) {
-    for (const double speed : {-1.0, 0.0, 0.1, 0.3}) {  // -1: another controlled drone
+  for (const double speed : {-1.0, 0.0, 0.1, 0.3}) {  // -1: another controlled drone
+    for (const BarrierParameters& parameters : {paper(), lag_aware()}) {
       const Body other = speed < 0.0 ? Body{} : stranger(speed);
       const PairBarrier barrier = separation_barrier(parameters, Body{}, other);
       const double reach = pair_reach(parameters, barrier);
-      EXPECT_TRUE(row_at(parameters, barrier, reach * (1.0 - 1e-9)));
       EXPECT_FALSE(row_at(parameters, barrier, reach * (1.0 + 1e-9)));
+      if (barrier.lag_s > 0.0) continue;  // there it depends on the velocities: below
+      EXPECT_TRUE(row_at(parameters, barrier, reach * (1.0 - 1e-9)));
       EXPECT_NEAR(row_at(parameters, barrier, reach * (1.0 - 1e-9))->offset, -parameters.u_max_m_s, 1e-6);
     }
   }
+}
+
+TEST(Barrier, Beyond_the_derived_range_no_velocities_make_a_row_of_lagging_drones_bind) {
+  const BarrierParameters parameters = lag_aware();
+  const PairBarrier barrier = of_drones(parameters);
+  const double reach = pair_reach(parameters, barrier);
+  double farthest = 0.0;
+  for (int i = 0; i < 360; ++i) {
+    for (const double speed : {0.2, 0.4, 0.6}) {
+      const Vec2 v_ij = speed * Vec2(std::cos(i * M_PI / 180.0), std::sin(i * M_PI / 180.0));
+      for (double d = 0.2; d < 2.0 * reach; d += 0.002)
+        if (pair_row(parameters, barrier, Vec2(d, 0.0), v_ij, 0, 1, Priority::kMargin))
+          farthest = std::max(farthest, d);
+    }
+  }
+  EXPECT_LE(farthest, reach);
+  EXPECT_GE(farthest, 0.7 * reach);  // and it is not far too long
 }
 
 TEST(Barrier, An_uncooperative_body_puts_its_whole_speed_on_this_side) {
@@ -171,8 +235,8 @@ TEST(Barrier, Coincident_drones_are_sent_opposite_ways) {
   const BarrierParameters parameters = lag_aware();
   const PairBarrier barrier = of_drones(parameters);
   for (int j = 1; j < 20; ++j) {
-    const auto row = pair_row(parameters, barrier, Vec2::Zero(), 0, j, Priority::kSeparation);
-    const auto back = pair_row(parameters, barrier, Vec2::Zero(), j, 0, Priority::kSeparation);
+    const auto row = pair_row(parameters, barrier, Vec2::Zero(), Vec2::Zero(), 0, j, Priority::kSeparation);
+    const auto back = pair_row(parameters, barrier, Vec2::Zero(), Vec2::Zero(), j, 0, Priority::kSeparation);
     ASSERT_TRUE(row && back);
     EXPECT_EQ(row->normal, -back->normal);
     EXPECT_NEAR(row->normal.norm(), 1.0, 1e-15);

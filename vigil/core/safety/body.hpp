@@ -9,8 +9,8 @@ namespace vigil::safety {
 
 enum class BarrierKind : std::uint8_t {
   kPaper,    ///< (10), (11): h_o = |p_ij|^2 - R_s^2, h_w = d^2 - R_wall^2, gamma(h) = gain h^3
-  kLagAware  ///< on z = p + lag v: h = |z_ij|^2 - R_z^2, R_z^2 = (R_s + margin)^2 + (2 lag u_max)^2, h_w = d - R_wall
-             ///< - margin, gamma(h) = gain h
+  kLagAware  ///< for v' = (u - v)/lag: h = |p_ij|^2 + 2 lag p_ij.v_ij - R^2, R = R_s + pair margin (and a little for
+             ///< the tick); on z = p + lag v: h_w = d - R_wall - margin; gamma(h) = gain h
 };
 
 /// What the filter guarantees and how firmly. Metres, seconds; one value for the whole swarm.
@@ -25,8 +25,10 @@ struct BarrierParameters {
   double pair_gain = 5.0;           ///< of gamma for pairs: 1/(m^4 s) for kPaper, 1/s for kLagAware
   double wall_gain = 5.0;           ///< of gamma for walls and no-fly edges, the same units
   double lag_s = 0.0;               ///< tau >= 0 of v' = (u - v)/tau; kLagAware only
-  double margin_m = 0.0;  ///< >= 0, added to R_s, R_wall and the no-fly buffer for delay, noise and acceleration
-                          ///< limits; kLagAware only
+  /// >= 0, kept beyond R_wall and the no-fly buffer, and beyond R_s by a pair: for noise, wind, and all that a vehicle
+  /// does unlike v' = (u - v)/lag; kLagAware only.
+  double margin_m = 0.0;
+  double pair_margin_m = 0.0;
   /// Pairs farther apart have no row, walls and edges likewise (R_threat); none: derived, so that no row is ever
   /// missed. Whatever is set, nobody can step over a boundary within one tick: see least_sensing_range().
   std::optional<double> sensing_range_m;
@@ -35,9 +37,11 @@ struct BarrierParameters {
 
 /// The distance beyond which a pair row cannot bind: gamma(h) >= 2 d u_max there (0.61 m for the paper's numbers).
 [[nodiscard]] double derived_sensing_range(const BarrierParameters& parameters);
-/// The least sensing range with which sampling cannot step over the boundary: R + 2 u_max dt (R_z for kLagAware).
+/// The least sensing range with which nobody meets the barrier for the first time behind its boundary: R + 2 u_max dt
+/// for kPaper; for kLagAware 2 w + hypot(R, 2 w) instead of R, w = lag u_max, since h >= 0 there whatever the
+/// velocities.
 [[nodiscard]] double least_sensing_range(const BarrierParameters& parameters);
-/// R_s for kPaper, R_z for kLagAware: the distance (of p or of z) at which h = 0.
+/// The distance at which h = 0 for two drones at rest: R_s for kPaper, R for kLagAware.
 [[nodiscard]] double barrier_radius(const BarrierParameters& parameters);
 
 /// A drone as the filter sees it. Field frame.

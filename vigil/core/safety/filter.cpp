@@ -155,7 +155,8 @@ void Filter::gather_pairs(std::size_t own, const Vec2& z, std::span<const Body> 
       report.nearest = index;
       report.nearest_distance_m = distance;
     }
-    const auto row = pair_row(parameters_, barrier, z_ij, static_cast<int>(own), index, Priority::kMargin);
+    const Vec2 v_ij = bodies[own].velocity - bodies[other].velocity;
+    const auto row = pair_row(parameters_, barrier, z_ij, v_ij, static_cast<int>(own), index, Priority::kMargin);
     if (row) add(*row, {RowKind::kNeighbour, index, distance}, report);
   });
 }
@@ -168,7 +169,8 @@ void Filter::gather_bare_pairs(std::size_t own, const Vec2& z, std::span<const B
     const auto index = static_cast<int>(other);
     const double distance = (bodies[own].position - bodies[other].position).norm();
     const auto add_row = [&](const PairBarrier& barrier, Priority priority) {
-      const auto row = pair_row(parameters_, barrier, z_ij, static_cast<int>(own), index, priority);
+      const Vec2 v_ij = bodies[own].velocity - bodies[other].velocity;
+      const auto row = pair_row(parameters_, barrier, z_ij, v_ij, static_cast<int>(own), index, priority);
       if (row) add(*row, {RowKind::kNeighbour, index, distance}, report);
     };
     add_row(bare_separation_barrier(parameters_, bodies[other]), Priority::kSeparation);

@@ -57,14 +57,14 @@ TEST_P(FilterTest, A_drone_that_is_alone_does_as_it_is_told) {
 
 TEST_P(FilterTest, The_report_says_who_holds_the_drone_and_how_far_it_is) {
   add(1.5, 1.5);
-  add(1.75, 1.5);
+  add(1.73, 1.5);
   run(std::array{Vec2(0.3, 0.0), Vec2(-0.3, 0.0)});
   ASSERT_EQ(reports_[0].holding_count, 1);
   EXPECT_EQ(reports_[0].holding[0].kind, RowKind::kNeighbour);
   EXPECT_EQ(reports_[0].holding[0].index, 1);
-  EXPECT_NEAR(reports_[0].holding[0].distance_m, 0.25, 1e-15);
+  EXPECT_NEAR(reports_[0].holding[0].distance_m, 0.23, 1e-15);
   EXPECT_EQ(reports_[0].nearest, 1);
-  EXPECT_NEAR(reports_[0].nearest_distance_m, 0.25, 1e-15);
+  EXPECT_NEAR(reports_[0].nearest_distance_m, 0.23, 1e-15);
   EXPECT_NEAR(reports_[0].correction_m_s, (u_[0] - Vec2(0.3, 0.0)).norm(), 1e-15);
   EXPECT_GT(reports_[0].correction_m_s, 0.1);
 }
@@ -234,7 +234,7 @@ TEST_P(FilterTest, Coincident_drones_part) {
 TEST_P(FilterTest, More_neighbours_than_rows_are_reported_and_the_most_pressing_ones_kept) {
   for (int i = 0; i < 300; ++i) {
     const double angle = 0.1 * i;
-    add(1.5 + 0.28 * std::cos(angle), 1.5 + 0.28 * std::sin(angle));
+    add(1.5 + 0.24 * std::cos(angle), 1.5 + 0.24 * std::sin(angle));
   }
   add(1.5, 1.5);
   add(1.62, 1.5);  // the closest of all, and the last
