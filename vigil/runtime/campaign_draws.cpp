@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "vigil/core/safety/barrier.hpp"
+#include "vigil/runtime/free_places.hpp"
 #include "vigil/runtime/mission_setup.hpp"
 
 namespace vigil::runtime {
@@ -28,45 +29,28 @@ std::size_t below(RandomStream& random, std::size_t n) {
   return std::min(n - 1, static_cast<std::size_t>(random.uniform() * static_cast<double>(n)));
 }
 
-/// Where something may be put: inside the field and outside no-fly polygons, so far from their borders.
-class FreePlaces {
+/// Free places in the world frame, rounded.
+class FreeSpots {
  public:
-  FreePlaces(const Mission& mission, double wall_m, double no_fly_m)
-      : frame_(world_frame(mission)), field_(monitored_field(mission)), wall_m_(wall_m), no_fly_m_(no_fly_m) {
-    for (const NoFlyEntry& entry : mission.no_fly) no_fly_.push_back(polygon_in_field(mission, entry.outline_m));
-  }
+  FreeSpots(const Mission& mission, double wall_m, double no_fly_m)
+      : frame_(world_frame(mission)), places_(mission, wall_m, no_fly_m) {}
 
-  /// Uniform, field frame; may still not be free.
-  Vec2 dart(RandomStream& random) const {
-    const double x = between(random, wall_m_, field_.length_x - wall_m_);
-    return {x, between(random, wall_m_, field_.length_y - wall_m_)};
-  }
-
-  bool is_free(const Vec2& p_F) const {
-    const double wall = std::min({p_F.x(), p_F.y(), field_.length_x - p_F.x(), field_.length_y - p_F.y()});
-    const auto is_clear = [&](const field::Polygon& polygon) {
-      return field::signed_distance(polygon, p_F) >= no_fly_m_;
-    };
-    return wall >= wall_m_ && std::ranges::all_of(no_fly_, is_clear);
-  }
+  Vec2 dart(RandomStream& random) const { return places_.dart(random); }
 
   /// The rounded point in the world frame, where it is free and `wanted` too; p_F is in the field frame.
   template <typename Wanted>
   std::optional<Vec2> settle(const Vec2& p_F, Wanted wanted) const {
     const Vec2 p_W = to_millimetres(frame_.point_to_world(p_F));
-    return is_free(frame_.point_to_field(p_W)) && wanted(p_W) ? std::optional(p_W) : std::nullopt;
+    return places_.is_free(frame_.point_to_field(p_W)) && wanted(p_W) ? std::optional(p_W) : std::nullopt;
   }
 
  private:
   field::WorldFrame frame_;
-  field::Field field_;
-  double wall_m_;
-  double no_fly_m_;
-  std::vector<field::Polygon> no_fly_;
+  FreePlaces places_;
 };
 
 template <typename Dart, typename Wanted>
-std::optional<Vec2> find_place(const FreePlaces& places, Dart dart, Wanted wanted) {
+std::optional<Vec2> find_place(const FreeSpots& places, Dart dart, Wanted wanted) {
   for (int i = 0; i < kMostDarts; ++i)
     if (const std::optional<Vec2> place = places.settle(dart(), wanted)) return place;
   return std::nullopt;
@@ -81,7 +65,7 @@ double spread_of(const std::vector<Vec2>& points) {
   return std::sqrt(0.5 * squares / static_cast<double>(points.size()));
 }
 
-std::optional<std::vector<Vec2>> draw_cluster(const FreePlaces& places, const ClusterEntry& cluster,
+std::optional<std::vector<Vec2>> draw_cluster(const FreeSpots& places, const ClusterEntry& cluster,
                                               RandomStream& random) {
   const Vec2 centre_F = places.dart(random);
   const double spread = spread_of(cluster.points_m);
@@ -155,7 +139,7 @@ class Incidents {
 std::optional<std::vector<Vec2>> draw_starts(const Mission& mission, RandomStream& random) {
   const safety::BarrierParameters barrier = barrier_parameters(mission);
   const double apart = kRoom * safety::barrier_radius(barrier);
-  const FreePlaces places(mission, kRoom * barrier.wall_distance_m, kRoom * barrier.no_fly_buffer_m);
+  const FreeSpots places(mission, kRoom * barrier.wall_distance_m, kRoom * barrier.no_fly_buffer_m);
   std::vector<Vec2> starts;
   const auto is_apart = [&](const Vec2& p_W) {
     return std::ranges::all_of(starts, [&](const Vec2& other_W) { return (p_W - other_W).norm() > apart; });
@@ -169,7 +153,7 @@ std::optional<std::vector<Vec2>> draw_starts(const Mission& mission, RandomStrea
 }
 
 std::optional<std::vector<std::vector<Vec2>>> draw_targets(const Mission& mission, RandomStream& random) {
-  const FreePlaces places(mission, 0.0, 0.0);
+  const FreeSpots places(mission, 0.0, 0.0);
   std::vector<std::vector<Vec2>> clusters;
   for (const ClusterEntry& cluster : mission.targets.clusters) {
     auto points = draw_cluster(places, cluster, random);

@@ -37,6 +37,7 @@ class Course {
       case EventKind::kGiveBack:
       case EventKind::kLoseTracking:
       case EventKind::kLoseLink:
+      case EventKind::kGoTo:
         return check_drone(event);
       case EventKind::kAddTarget:
         return add_target(event);

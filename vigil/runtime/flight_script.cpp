@@ -23,6 +23,8 @@ std::optional<CommandKind> command_of(EventKind kind) {
       return CommandKind::kLand;
     case EventKind::kHold:
       return CommandKind::kHold;
+    case EventKind::kGoTo:
+      return CommandKind::kGoTo;
     case EventKind::kResume:
       return CommandKind::kResume;
     case EventKind::kMarkFailed:
@@ -128,11 +130,12 @@ void FlightScript::play_event(const EventEntry& event, DueEvents& due) {
 
 void FlightScript::play_for_drones(const EventEntry& event, DueEvents& due) {
   const Vec2 velocity = world_frame(mission_).vector_to_field(event.velocity_m_s);
+  const Vec2 place = world_frame(mission_).point_to_field(event.point_m);
   for (std::size_t index = 0; index < mission_.drones.size(); ++index) {
     if (event.drone != "all" && event.drone != mission_.drones[index].id) continue;
     const DroneId drone(index);
     if (const auto command = command_of(event.what))
-      due.commands.push_back({.kind = *command, .drone = drone, .target = {}});
+      due.commands.push_back({.kind = *command, .drone = drone, .place = place, .target = {}});
     switch (event.what) {
       case EventKind::kFail:
         fleet_.fail(drone);

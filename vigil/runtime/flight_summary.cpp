@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "vigil/runtime/goal_throughput.hpp"
 #include "vigil/runtime/mission_description.hpp"
 
 namespace vigil::runtime {
@@ -63,9 +64,11 @@ void SummaryBuilder::add(const swarm::Snapshot& snapshot, double tick_us) {
 }
 
 FlightSummary SummaryBuilder::finish(const AuditTotals& audit,
-                                     std::vector<std::pair<std::string, double>> worst_revisit_s) const {
+                                     std::vector<std::pair<std::string, double>> worst_revisit_s,
+                                     const std::optional<GoalTally>& goals) const {
   FlightSummary summary = summary_;
   summary.audit = audit;
+  summary.goals = goals;
   summary.worst_revisit_s = std::move(worst_revisit_s);
   summary.duration_s = static_cast<double>(summary.ticks) * dt_s_;
   const bool asks_for_the_end =
@@ -79,6 +82,19 @@ FlightSummary SummaryBuilder::finish(const AuditTotals& audit,
   return summary;
 }
 
+namespace {
+
+void add_goals(nlohmann::ordered_json& json, const FlightSummary& summary) {
+  const GoalTally& goals = *summary.goals;
+  json["goals_reached"] = goals.reached;
+  json["goals_per_drone_minute"] =
+      summary.duration_s > 0.0 ? goals_per_drone_minute(goals.reached, summary.drones, summary.duration_s) : 0.0;
+  json["goals_all_there_s"] =
+      goals.all_there_s ? nlohmann::ordered_json(*goals.all_there_s) : nlohmann::ordered_json(nullptr);
+}
+
+}  // namespace
+
 nlohmann::ordered_json to_json(const FlightSummary& summary) {
   using Json = nlohmann::ordered_json;
   Json percent_at = Json::object();
@@ -91,30 +107,32 @@ nlohmann::ordered_json to_json(const FlightSummary& summary) {
                     {"last", summary.first_metric ? Json(summary.last_metric) : Json(nullptr)},
                     {"percent_last", summary.first_metric ? Json(summary.last_percent) : Json(nullptr)},
                     {"percent_at", percent_at}};
-  return Json{{"mission", summary.mission},
-              {"seed", summary.seed},
-              {"duration_s", summary.duration_s},
-              {"complete", summary.complete},
-              {"ticks", summary.ticks},
-              {"drones", summary.drones},
-              {"metric", metric},
-              {"min_separation_m",
-               {{"airborne", finite_or_null(summary.audit.least.airborne_pair_m)},
-                {"active", finite_or_null(summary.audit.least.active_pair_m)}}},
-              {"min_wall_distance_m", finite_or_null(summary.audit.least.wall_m)},
-              {"min_no_fly_distance_m", finite_or_null(summary.audit.least.no_fly_m)},
-              {"max_speed_m_s", summary.audit.max_speed_m_s},
-              {"separation_violations", summary.audit.separation_violations},
-              {"wall_violations", summary.audit.wall_violations},
-              {"no_fly_violations", summary.audit.no_fly_violations},
-              {"speed_violations", summary.audit.speed_violations},
-              {"fallback_ticks", summary.fallback_ticks},
-              {"worst_revisit_s", revisit},
-              {"active", active},
-              {"tick_us", {{"p50", summary.tick_us_p50}, {"p99", summary.tick_us_p99}, {"max", summary.tick_us_max}}},
-              {"accounting", summary.accounting},
-              {"controller", summary.controller},
-              {"barrier", summary.barrier}};
+  Json json{{"mission", summary.mission},
+            {"seed", summary.seed},
+            {"duration_s", summary.duration_s},
+            {"complete", summary.complete},
+            {"ticks", summary.ticks},
+            {"drones", summary.drones},
+            {"metric", metric},
+            {"min_separation_m",
+             {{"airborne", finite_or_null(summary.audit.least.airborne_pair_m)},
+              {"active", finite_or_null(summary.audit.least.active_pair_m)}}},
+            {"min_wall_distance_m", finite_or_null(summary.audit.least.wall_m)},
+            {"min_no_fly_distance_m", finite_or_null(summary.audit.least.no_fly_m)},
+            {"max_speed_m_s", summary.audit.max_speed_m_s},
+            {"separation_violations", summary.audit.separation_violations},
+            {"wall_violations", summary.audit.wall_violations},
+            {"no_fly_violations", summary.audit.no_fly_violations},
+            {"speed_violations", summary.audit.speed_violations},
+            {"fallback_ticks", summary.fallback_ticks},
+            {"worst_revisit_s", revisit},
+            {"active", active},
+            {"tick_us", {{"p50", summary.tick_us_p50}, {"p99", summary.tick_us_p99}, {"max", summary.tick_us_max}}},
+            {"accounting", summary.accounting},
+            {"controller", summary.controller},
+            {"barrier", summary.barrier}};
+  if (summary.goals) add_goals(json, summary);
+  return json;
 }
 
 }  // namespace vigil::runtime

@@ -9,6 +9,7 @@
 #include <nlohmann/json_fwd.hpp>
 
 #include "vigil/runtime/flight_audit.hpp"
+#include "vigil/runtime/goal_script.hpp"
 #include "vigil/runtime/mission.hpp"
 #include "vigil/swarm/snapshot.hpp"
 
@@ -28,6 +29,7 @@ struct FlightSummary {
   std::vector<std::pair<double, double>> percent_at;  ///< seconds, percent of the first metric
   AuditTotals audit;
   std::uint64_t fallback_ticks = 0;
+  std::optional<GoalTally> goals;                               ///< where the mission has goals
   std::vector<std::pair<std::string, double>> worst_revisit_s;  ///< per cluster and area
   std::vector<std::pair<double, std::size_t>> active;           ///< each change of |I_a(t)|
   double tick_us_p50 = 0.0;  ///< wall-clock, the only figures that differ between two runs of one seed
@@ -47,7 +49,8 @@ class SummaryBuilder {
 
   void add(const swarm::Snapshot& snapshot, double tick_us);
   [[nodiscard]] FlightSummary finish(const AuditTotals& audit,
-                                     std::vector<std::pair<std::string, double>> worst_revisit_s) const;
+                                     std::vector<std::pair<std::string, double>> worst_revisit_s,
+                                     const std::optional<GoalTally>& goals = std::nullopt) const;
 
  private:
   FlightSummary summary_;

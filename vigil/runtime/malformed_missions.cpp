@@ -196,9 +196,10 @@ void add_contradictions(std::vector<MalformedMission>& table) {
   add("a contact distance beyond R_s", but("separation_m: 0.2", "separation_m: 0.2\n  contact_distance_m: 0.3"),
       "safety.contact_distance_m", "must be in (0, 0.2] m");
   add("walls that meet", but("wall_distance_m: 0.1", "wall_distance_m: 1.5"), "safety.wall_distance_m", "below half");
-  // R_z = sqrt(0.2^2 + (2 0.1 0.3)^2) = 0.208806 and 2 u_max dt = 0.012.
-  add("a sensing range below R + 2 u_max dt", but("lag_s: 0.1\nhealth", "lag_s: 0.1\n  sensing_range_m: 0.22\nhealth"),
-      "safety.sensing_range_m", "must be at least 0.220806 m");
+  // R = hypot(0.2, sqrt(5) 0.3 0.02) = 0.200449, 2 w = 0.06, 2 u_max dt = 0.012: 2 w + hypot(R, 2 w) + 2 u_max dt.
+  add("a sensing range that lets drones meet behind the barrier",
+      but("lag_s: 0.1\nhealth", "lag_s: 0.1\n  sensing_range_m: 0.22\nhealth"), "safety.sensing_range_m",
+      "must be at least 0.281237 m");
   add("the paper's sensing range below R_s + 2 u_max dt",
       but("barrier: lag_aware\n  separation_m: 0.2\n  wall_distance_m: 0.1\n  lag_s: 0.1",
           "barrier: paper\n  separation_m: 0.2\n  wall_distance_m: 0.1\n  sensing_range_m: 0.21"),
@@ -270,15 +271,14 @@ void add_contradictions(std::vector<MalformedMission>& table) {
   add("a start in a no-fly polygon", but("[-1, -1]", "[-1.2, 0.6]"), "drones[0].start_m", "no-fly polygon mast");
   add("a start near a no-fly polygon", but("[-1, -1]", "[-0.95, 0.6]"), "drones[0].start_m", "at least 0.1 m from it");
   add("overlapping starts", but("[0, 0]", "[-1, -0.9]"), "drones[1].start_m", "is 0.1 m from the start of a");
-  add("starts inside R_z though outside R_s", but("[0, 0]", "[-1, -0.795]"), "drones[1].start_m",
-      "at least 0.208806 m");
+  add("starts inside R though outside R_s", but("[0, 0]", "[-1, -0.7998]"), "drones[1].start_m", "at least 0.200449 m");
   add("more drones than the field holds",
       but("drones:\n  - {id: a, start_m: [-1, -1]}\n  - {id: b, start_m: [0, 0]}\n", "drone_grid: {count: 1000}\n"),
       "drone_grid.count", "must be at most 234");
-  add("a grid narrower than R_z",
+  add("a grid narrower than R",
       but("drones:\n  - {id: a, start_m: [-1, -1]}\n  - {id: b, start_m: [0, 0]}\n",
-          "drone_grid: {count: 2, spacing_m: 0.2}\n"),
-      "drone_grid.spacing_m", "must be at least 0.208806 m");
+          "drone_grid: {count: 2, spacing_m: 0.2002}\n"),
+      "drone_grid.spacing_m", "must be at least 0.200449 m");
   add("an event for an unknown drone", but("drone: b", "drone: c"), "simulation.events[0].drone",
       "is no drone of this mission");
   add("an event after the end", but("at_s: 30", "at_s: 61"), "simulation.events[2].at_s", "must be in [0, 60] s");

@@ -191,7 +191,8 @@ enum class EventKind : std::uint8_t {
   kTakeOff,        ///< operator: take off
   kLand,           ///< operator: land where it is
   kHold,           ///< operator: hover, out of coverage
-  kResume,         ///< operator: back to coverage after hold or mark_failed
+  kGoTo,           ///< operator: fly to point_m and wait there, out of coverage
+  kResume,         ///< operator: back to coverage after hold, go_to or mark_failed
   kMarkFailed,     ///< operator: declare it failed
   kEmergencyStop,  ///< safety pilot: motors off
   kFail,           ///< the vehicle fails in the air: ignores commands, hovers where it stops
@@ -223,6 +224,19 @@ enum class StartState : std::uint8_t { kFlying, kGrounded };
 
 inline constexpr double kLongestDurationS = 1e6;
 
+enum class GoalPattern : std::uint8_t {
+  kErrands,  ///< one random place after another
+  kPlaces,   ///< each drone one random place, apart from each other
+  kSwap      ///< each drone the place opposite to its start, through the field's centre
+};
+
+/// Operators' go_to for every drone, so that a crowd has somewhere to go.
+struct GoalsSection {
+  GoalPattern pattern = GoalPattern::kErrands;
+  std::optional<double> radius_m;  ///< closer than this a goal is reached; default 0.6 times the barrier's radius
+  friend bool operator==(const GoalsSection&, const GoalsSection&) = default;
+};
+
 struct SimulationSection {
   double duration_s = 120.0;
   std::uint64_t seed = 1;
@@ -232,7 +246,8 @@ struct SimulationSection {
   WindSection wind;
   LinkSection link;
   TrackerSection tracker;
-  std::vector<EventEntry> events;  ///< in the order of at_s
+  std::optional<GoalsSection> goals;  ///< none: drones cover
+  std::vector<EventEntry> events;     ///< in the order of at_s
   friend bool operator==(const SimulationSection&, const SimulationSection&) = default;
 };
 

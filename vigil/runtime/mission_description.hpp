@@ -134,6 +134,7 @@ void describe(DescriptionVisitor& visitor, BatterySection& battery);
 void describe(DescriptionVisitor& visitor, WindSection& wind);
 void describe(DescriptionVisitor& visitor, LinkSection& link);
 void describe(DescriptionVisitor& visitor, TrackerSection& tracker);
+void describe(DescriptionVisitor& visitor, GoalsSection& goals);
 void describe(DescriptionVisitor& visitor, EventEntry& event);
 
 /// The names of enumerators in a mission file, for messages and reports.

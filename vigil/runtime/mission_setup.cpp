@@ -84,6 +84,10 @@ double observation_delay_s(const Mission& mission) {
   return mission.safety.observation_delay_s.value_or(mission.simulation.tracker.delay_s);
 }
 
+double goal_radius_m(const Mission& mission) {
+  return mission.simulation.goals->radius_m.value_or(0.6 * safety::barrier_radius(barrier_parameters(mission)));
+}
+
 Vec2 target_in_field(const Mission& mission, const Vec2& point_W) {
   return monitored_field(mission).clamp(world_frame(mission).point_to_field(point_W));
 }

@@ -37,6 +37,8 @@ namespace vigil::runtime {
 /// simulated vehicle and tracker take.
 [[nodiscard]] double command_delay_s(const Mission& mission);
 [[nodiscard]] double observation_delay_s(const Mission& mission);
+/// simulation.goals.radius_m, by default 0.6 times the barrier's radius. Precondition: the mission has goals.
+[[nodiscard]] double goal_radius_m(const Mission& mission);
 
 /// A target point (world frame) in the field frame, on the field's border where it lies outside.
 [[nodiscard]] Vec2 target_in_field(const Mission& mission, const Vec2& point_W);

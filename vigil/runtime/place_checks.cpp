@@ -175,6 +175,23 @@ void check_target(const Mission& mission, const MissionSource& source, const NoF
   }
 }
 
+/// Where an operator sends a drone.
+void check_destination(const Mission& mission, const MissionSource& source, const NoFly& no_fly, const Vec2& point_W,
+                       const std::string& key) {
+  const field::Field field = monitored_field(mission);
+  const Vec2 point = world_frame(mission).point_to_field(point_W);
+  const bool is_free = field.contains(point) && !no_fly.around(point);
+  if (is_free) return;
+  source.refuse({.place = "",
+                 .key = key,
+                 .value = "",
+                 .problem = "is where no drone may fly",
+                 .valid = fmt::format("must be inside the field of {:.6g} m x {:.6g} m at field.origin_m, and outside "
+                                      "every no-fly polygon",
+                                      field.length_x, field.length_y),
+                 .advice = "send the drone elsewhere"});
+}
+
 void check_area(const Mission& mission, const MissionSource& source, const NoFly& no_fly, std::size_t i) {
   const std::string key = fmt::format("targets.areas[{}]", i);
   const field::Polygon outline = polygon_in_field(mission, mission.targets.areas[i].outline_m);
@@ -215,8 +232,10 @@ void check_places(const Mission& mission, const MissionSource& source) {
   }
   for (std::size_t i = 0; i < mission.simulation.events.size(); ++i) {
     const EventEntry& event = mission.simulation.events[i];
+    const std::string key = fmt::format("simulation.events[{}].point_m", i);
+    if (event.what == EventKind::kGoTo) check_destination(mission, source, no_fly, event.point_m, key);
     if (event.what != EventKind::kAddTarget && event.what != EventKind::kMoveTarget) continue;
-    check_target(mission, source, no_fly, event.point_m, fmt::format("simulation.events[{}].point_m", i));
+    check_target(mission, source, no_fly, event.point_m, key);
   }
 }
 

@@ -178,6 +178,8 @@ class Maker {
                        .delay_s = dice_.between(0.0, 0.1),
                        .jitter_s = dice_.between(0.0, 0.1),
                        .rate_hz = dice_.maybe(1.0, 50.0)};
+    if (dice_.coin())
+      simulation.goals = {.pattern = static_cast<GoalPattern>(dice_.below(3)), .radius_m = dice_.maybe(0.05, 0.5)};
     const bool over_link = dice_.coin();
     simulation.tracker = {.rate_hz = dice_.maybe(1.0, 100.0),
                           .noise_m = dice_.between(0.0, 0.1),
@@ -197,7 +199,7 @@ class Maker {
   EventEntry make_event(double at_s) {
     EventEntry event;
     event.at_s = at_s;
-    event.what = static_cast<EventKind>(dice_.below(16));
+    event.what = static_cast<EventKind>(dice_.below(17));
     const bool needs_cluster = event.what == EventKind::kMoveTarget || event.what == EventKind::kRemoveTarget ||
                                event.what == EventKind::kSetWeight;
     if (needs_cluster && targets_added_ == 0) event.what = EventKind::kAddTarget;
@@ -206,6 +208,7 @@ class Maker {
       event.drone = dice_.coin() ? "all" : "d1";
       if (event.what == EventKind::kOverride)
         event.velocity_m_s = Vec2(dice_.between(-1.0, 1.0), dice_.between(-1.0, 1.0));
+      if (event.what == EventKind::kGoTo) event.point_m = place();
       if (event.what == EventKind::kLoseTracking || event.what == EventKind::kLoseLink)
         event.for_s = dice_.between(0.1, 5.0);
       return event;

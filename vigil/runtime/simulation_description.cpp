@@ -24,11 +24,12 @@ constexpr std::array<Choice, 2> kStartState{{
     {"grounded", "every drone stands at its start until a take_off event"},
 }};
 
-constexpr std::array<Choice, 16> kEventKind{{
+constexpr std::array<Choice, 17> kEventKind{{
     {"take_off", "the operator lets a drone take off"},
     {"land", "the operator lets a drone land where it is"},
     {"hold", "the operator lets a drone hover, out of coverage"},
-    {"resume", "the operator sends a drone back to coverage after hold or mark_failed"},
+    {"go_to", "the operator sends a drone to point_m, where it waits, out of coverage"},
+    {"resume", "the operator sends a drone back to coverage after hold, go_to or mark_failed"},
     {"mark_failed", "the operator declares a drone failed"},
     {"emergency_stop", "the safety pilot stops a drone's motors"},
     {"fail", "a vehicle fails in the air: it ignores commands and hovers where it stops"},
@@ -41,6 +42,12 @@ constexpr std::array<Choice, 16> kEventKind{{
     {"remove_target", "a target point leaves its cluster; the last one removes the cluster"},
     {"set_weight", "a cluster or area gets another weight"},
     {"start_afresh", "all coverage so far is forgotten"},
+}};
+
+constexpr std::array<Choice, 3> kGoalPattern{{
+    {"errands", "one random place after another"},
+    {"places", "each drone one random place, where it stays; all of them apart from each other"},
+    {"swap", "each drone the place opposite to its start, through the field's centre"},
 }};
 
 constexpr Range kDuration{0.0, 600.0};
@@ -81,6 +88,11 @@ void describe_particulars(DescriptionVisitor& visitor, EventEntry& event) {
     case EventKind::kFail:
     case EventKind::kGiveBack:
       describe_drone(visitor, event);
+      return;
+    case EventKind::kGoTo:
+      describe_drone(visitor, event);
+      visitor.point({.name = "point_m", .meaning = "where to, world frame", .unit = "m", .is_required = true},
+                    kWorldCoordinate, event.point_m);
       return;
     case EventKind::kOverride:
       describe_drone(visitor, event);
@@ -143,6 +155,11 @@ void describe(DescriptionVisitor& visitor, SimulationSection& simulation) {
                   [&](DescriptionVisitor& v) { describe(v, simulation.link); });
   visitor.section({.name = "tracker", .meaning = "how positions are measured"},
                   [&](DescriptionVisitor& v) { describe(v, simulation.tracker); });
+  visitor.optional_section(
+      {.name = "goals", .meaning = "places to which the drones are sent, instead of covering; for trying out crowds"},
+      {.is_present = simulation.goals.has_value(),
+       .create = [&] { simulation.goals.emplace(); },
+       .describe = [&](DescriptionVisitor& v) { describe(v, *simulation.goals); }});
   visitor.list({.name = "events", .meaning = "what happens when, in the order of at_s"}, {0, 10'000},
                sections_of(simulation.events));
 }
@@ -267,6 +284,15 @@ void describe(DescriptionVisitor& visitor, TrackerSection& tracker) {
        .meaning = "vehicles find their own position and send it over the link: what the link loses or delays, "
                   "the position does"},
       tracker.over_link);
+}
+
+void describe(DescriptionVisitor& visitor, GoalsSection& goals) {
+  visitor.choice({.name = "pattern", .meaning = "which places"}, kGoalPattern, goals.pattern);
+  visitor.number({.name = "radius_m",
+                  .meaning = "the distance within which a place counts as reached",
+                  .unit = "m",
+                  .default_text = "0.6 times the barrier's radius"},
+                 {0.0, 1000.0, false}, goals.radius_m);
 }
 
 void describe(DescriptionVisitor& visitor, EventEntry& event) {

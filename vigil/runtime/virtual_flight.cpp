@@ -47,6 +47,7 @@ VirtualFlight::VirtualFlight(Mission mission, VirtualFleet& fleet, Recorder* rec
       orders_(mission_.drones.size()),
       footprint_radius_m_(footprint_radius_m(mission_)) {
   watchers_.reserve(mission_.drones.size());
+  if (mission_.simulation.goals) goals_.emplace(mission_);
 }
 
 void VirtualFlight::watch(const std::string& name, std::vector<Vec2> places, double time_s) {
@@ -111,6 +112,8 @@ void VirtualFlight::step() {
   if (recorder_ != nullptr)
     for (const LoggedEvent& event : due.log) recorder_->log(event);
 
+  if (goals_) goals_->play(snapshot_, due.commands);
+
   fleet_.observe(mission_time(time_s), observations_);
   const std::chrono::nanoseconds before = stopwatch_();
   swarm::tick(state_, observations_, due.commands, snapshot_);
@@ -118,6 +121,7 @@ void VirtualFlight::step() {
 
   watch_areas(time_s);
   const Clearances clearances = audit_.judge(fleet_.truth(), snapshot_);
+  if (goals_) goals_->watch(fleet_.truth(), snapshot_, time_s);
   summary_.add(snapshot_, took.count());
   if (recorder_ != nullptr) recorder_->record({snapshot_, fleet_.truth(), clearances});
   log_snapshot_events();
@@ -132,7 +136,9 @@ FlightSummary VirtualFlight::summary() const {
   const double end_s = static_cast<double>(state_.ticks()) * state_.parameters().dt_s;
   std::vector<std::pair<std::string, double>> worst;
   for (const field::RevisitLog& area : areas_) worst.emplace_back(area.name(), area.worst_s(end_s));
-  return summary_.finish(audit_.totals(), std::move(worst));
+  std::optional<GoalTally> goals;
+  if (goals_) goals = goals_->tally();
+  return summary_.finish(audit_.totals(), std::move(worst), goals);
 }
 
 }  // namespace vigil::runtime

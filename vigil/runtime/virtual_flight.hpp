@@ -2,6 +2,7 @@
 
 #include <chrono>
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -9,6 +10,7 @@
 #include "vigil/runtime/flight_audit.hpp"
 #include "vigil/runtime/flight_script.hpp"
 #include "vigil/runtime/flight_summary.hpp"
+#include "vigil/runtime/goal_script.hpp"
 #include "vigil/swarm/tick.hpp"
 
 namespace vigil::runtime {
@@ -45,6 +47,7 @@ class VirtualFlight {
   swarm::SwarmState state_;
   swarm::Snapshot snapshot_;
   FlightScript script_;
+  std::optional<GoalScript> goals_;
   FlightAudit audit_;
   SummaryBuilder summary_;
   std::uint64_t ticks_to_fly_;

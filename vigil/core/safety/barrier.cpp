@@ -173,7 +173,8 @@ double derived_sensing_range(const BarrierParameters& parameters) {
 
 double least_sensing_range(const BarrierParameters& parameters) {
   const double w = 2.0 * lag_of(parameters) * parameters.u_max_m_s;
-  return w + std::hypot(barrier_radius(parameters), w) + 2.0 * parameters.u_max_m_s * parameters.dt_s;
+  const double met_at = w + std::hypot(barrier_radius(parameters), w) + 2.0 * parameters.u_max_m_s * parameters.dt_s;
+  return std::min(met_at, derived_sensing_range(parameters));
 }
 
 Vec2 barrier_point(const BarrierParameters& parameters, const Body& body) {

@@ -38,8 +38,8 @@ struct BarrierParameters {
 /// The distance beyond which a pair row cannot bind: gamma(h) >= 2 d u_max there (0.61 m for the paper's numbers).
 [[nodiscard]] double derived_sensing_range(const BarrierParameters& parameters);
 /// The least sensing range with which nobody meets the barrier for the first time behind its boundary: R + 2 u_max dt
-/// for kPaper; for kLagAware 2 w + hypot(R, 2 w) instead of R, w = lag u_max, since h >= 0 there whatever the
-/// velocities.
+/// for kPaper; for kLagAware 2 w + hypot(R, 2 w) instead of R, with w = lag u_max, since h >= 0 there whatever the
+/// velocities. Never more than derived_sensing_range().
 [[nodiscard]] double least_sensing_range(const BarrierParameters& parameters);
 /// The distance at which h = 0 for two drones at rest: R_s for kPaper, R for kLagAware.
 [[nodiscard]] double barrier_radius(const BarrierParameters& parameters);
