@@ -78,7 +78,9 @@ void FlightAudit::judge_speeds(std::span<const TruthSample> truth, const swarm::
     if (piloted_[drone] == 1 || snapshot.drones[drone].order.action != swarm::Action::kVelocity) continue;
     const double speed = truth[drone].velocity.norm();
     totals_.max_speed_m_s = std::max(totals_.max_speed_m_s, speed);
-    if (speed > limits_.speed_limit_m_s + kRounding) ++totals_.speed_violations;
+    const double ordered = snapshot.drones[drone].order.velocity.norm();
+    const double judged = limits_.follows_exactly ? std::max(ordered, speed) : ordered;
+    if (judged > limits_.speed_limit_m_s + kRounding) ++totals_.speed_violations;
   }
 }
 

@@ -19,7 +19,9 @@ struct AuditLimits {
   double separation_m = 0.0;     ///< R_s
   double wall_distance_m = 0.0;  ///< R_wall
   double no_fly_buffer_m = 0.0;
-  double speed_limit_m_s = 0.0;   ///< u_max
+  double speed_limit_m_s = 0.0;  ///< u_max
+  /// Whether a vehicle itself is held to it, or only what it is ordered to fly: autopilots overshoot, gusts push.
+  bool follows_exactly = true;
   double landed_height_m = 0.05;  ///< lower than this a drone is down
 };
 
@@ -32,7 +34,7 @@ struct AuditTotals {
   // back within the limits: those are the pilot's.
   std::uint64_t wall_violations = 0;    ///< ticks x airborne drones closer than R_wall to the border, or outside
   std::uint64_t no_fly_violations = 0;  ///< ticks x airborne drones within the buffer of a no-fly polygon
-  std::uint64_t speed_violations = 0;   ///< ticks x steered drones faster than u_max
+  std::uint64_t speed_violations = 0;  ///< ticks x steered drones ordered (or, see follows_exactly, flying) above u_max
 };
 
 /// Judges a flight by ground truth, whatever the controller believed. A rounding of 1e-9 (m, m/s) is no violation.

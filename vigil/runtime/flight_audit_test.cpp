@@ -83,6 +83,18 @@ TEST(FlightAudit, A_no_fly_polygon_is_violated_within_its_buffer) {
   EXPECT_NEAR(judged(Scene({{1.5, 1.4}}), by).least.no_fly_m, -0.4, 1e-12);
 }
 
+TEST(FlightAudit, A_vehicle_that_cannot_follow_exactly_is_judged_by_its_order) {
+  Scene scene({{1.0, 1.0}});
+  scene.truth[0].velocity = Vec2(0.0, 0.33);  // it overshoots
+  scene.snapshot.drones[0].order.velocity = Vec2(0.0, 0.3);
+  EXPECT_EQ(judged(scene).speed_violations, 1U);
+  AuditLimits lenient = limits();
+  lenient.follows_exactly = false;
+  EXPECT_EQ(judged(scene, lenient).speed_violations, 0U);
+  scene.snapshot.drones[0].order.velocity = Vec2(0.0, 0.31);
+  EXPECT_EQ(judged(scene, lenient).speed_violations, 1U);
+}
+
 TEST(FlightAudit, Only_drones_that_the_controller_steers_can_break_its_speed_limit) {
   Scene scene({{1.0, 1.0}, {2.0, 2.0}});
   scene.truth[0].velocity = Vec2(0.4, 0.0);

@@ -14,6 +14,13 @@ swarm::Intent first_intent(const Mission& mission) {
   return mission.simulation.start == StartState::kFlying ? swarm::Intent::kCover : swarm::Intent::kStayDown;
 }
 
+/// A vehicle that never flies faster than it is ordered to: none of the recorded autopilots, and nobody in gusts.
+bool follows_exactly(const SimulationSection& simulation) {
+  const bool is_simple = simulation.vehicle.model == dynamics::VehicleKind::kIdeal ||
+                         simulation.vehicle.model == dynamics::VehicleKind::kFirstOrderLag;
+  return is_simple && simulation.wind.gust_m_s == 0.0 && simulation.wind.mean_m_s.isZero();
+}
+
 AuditLimits audit_limits(const Mission& mission) {
   const safety::BarrierParameters barrier = barrier_parameters(mission);
   return {.field = monitored_field(mission),
@@ -22,6 +29,7 @@ AuditLimits audit_limits(const Mission& mission) {
           .wall_distance_m = barrier.wall_distance_m,
           .no_fly_buffer_m = barrier.no_fly_buffer_m,
           .speed_limit_m_s = barrier.u_max_m_s,
+          .follows_exactly = follows_exactly(mission.simulation),
           .landed_height_m = mission.health.landed_height_m};
 }
 

@@ -165,6 +165,15 @@ bool SwarmState::is_inside(const Vec2& place) const noexcept {
   return place.allFinite() && parameters_.field.contains(place);
 }
 
+/// As close to a place as the walls allow.
+Vec2 SwarmState::within_walls(const Vec2& place) const noexcept {
+  const safety::BarrierParameters& barrier = parameters_.barrier;
+  const double reach_m = barrier.wall_distance_m + safety::wall_reserve(barrier, {});
+  const Vec2 size(parameters_.field.length_x, parameters_.field.length_y);
+  const Vec2 least = Vec2::Constant(reach_m).cwiseMin(0.5 * size);
+  return place.cwiseMax(least).cwiseMin(size - least);
+}
+
 /// What observations and orders take is made up for by what was ordered meanwhile. Nothing is known to follow our
 /// orders but a drone that is steered, and the paper's barrier knows of no delay.
 void SwarmState::predict_drones() noexcept {
@@ -174,7 +183,8 @@ void SwarmState::predict_drones() noexcept {
     const bool is_paper = parameters_.barrier.kind == safety::BarrierKind::kPaper;
     if (is_paper || !is_steered(drones_[index].activity)) continue;
     const double span_s = known.age_s + parameters_.command_delay_s;
-    motions_[index] = flown_.ahead(index, motions_[index], span_s, parameters_.barrier.lag_s);
+    const Motion ahead = flown_.ahead(index, motions_[index], span_s, parameters_.barrier.lag_s);
+    if (ahead.position.allFinite() && ahead.velocity.allFinite()) motions_[index] = ahead;
   }
 }
 
@@ -249,7 +259,7 @@ void SwarmState::seek_goals() noexcept {
     travellers_.push_back({.drone = index,
                            .position = motions_[index].position,
                            .velocity = motions_[index].velocity,
-                           .goal = drones_[index].place,
+                           .goal = within_walls(drones_[index].place),
                            .flown = u_[index]});
   }
   travel_u_.resize(travellers_.size());  // within its capacity

@@ -53,6 +53,7 @@ class SwarmState {
   [[nodiscard]] safety::Body body_of(std::size_t index) const noexcept;
   [[nodiscard]] double assumed_age(const DroneMemory& drone) const noexcept;
   [[nodiscard]] bool is_inside(const Vec2& place) const noexcept;
+  [[nodiscard]] Vec2 within_walls(const Vec2& place) const noexcept;
 
   SwarmParameters parameters_;
   ergodic::Basis basis_;

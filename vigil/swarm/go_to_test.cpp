@@ -1,0 +1,148 @@
+#include <limits>
+
+#include <gtest/gtest.h>
+
+#include "vigil/swarm/tick.hpp"
+
+namespace vigil::swarm {
+namespace {
+
+constexpr double kDt = 0.02;
+
+SwarmParameters three_drones() {
+  SwarmParameters parameters;
+  parameters.field = {3.0, 3.0};
+  parameters.drones = 3;
+  parameters.dt_s = kDt;
+  parameters.barrier.separation_m = 0.2;
+  parameters.barrier.contact_distance_m = 0.1;
+  parameters.barrier.wall_distance_m = 0.17;
+  parameters.barrier.u_max_m_s = 0.3;
+  parameters.barrier.dt_s = kDt;
+  parameters.first_intent = Intent::kCover;
+  return parameters;
+}
+
+/// Ideal drones around a tick.
+struct World {
+  World() : state(three_drones()), snapshot(3), observations(3) {
+    for (std::size_t i = 0; i < 3; ++i) {
+      observations[i].position = Vec2(0.5 + static_cast<double>(i), 0.5);
+      observations[i].height_m = 1.0;
+      observations[i].age_s = 0.0;
+      observations[i].link_age_s = 0.0;
+      observations[i].mode = VehicleMode::kFlying;
+    }
+  }
+  void step(std::vector<Command> commands = {}) {
+    tick(state, observations, commands, snapshot);
+    for (std::size_t i = 0; i < 3; ++i) observations[i].position += kDt * snapshot.drones[i].order.velocity;
+  }
+  void run(double seconds) {
+    for (double t = 0.0; t < seconds; t += kDt) step();
+  }
+  /// Whether the drone's wish of the last tick was accepted.
+  [[nodiscard]] bool accepted(std::size_t drone) const {
+    return std::ranges::any_of(snapshot.events, [&](const Event& event) {
+      return event.kind == EventKind::kWishAccepted && event.drone == DroneId(drone);
+    });
+  }
+  [[nodiscard]] Activity activity(std::size_t drone) const { return snapshot.drones[drone].activity; }
+  SwarmState state;
+  Snapshot snapshot;
+  std::vector<DroneObservation> observations;
+};
+
+Command go_to(std::size_t drone, const Vec2& place) {
+  return {.kind = CommandKind::kGoTo, .drone = DroneId(drone), .place = place, .target = {}};
+}
+
+Command wish(CommandKind kind, std::size_t drone) { return {.kind = kind, .drone = DroneId(drone), .target = {}}; }
+
+TEST(GoTo, A_drone_that_is_sent_to_a_place_flies_there_and_waits) {
+  World world;
+  world.step({go_to(0, {2.0, 2.5})});
+  EXPECT_TRUE(world.accepted(0));
+  EXPECT_EQ(world.activity(0), Activity::kTravelling);
+  world.run(20.0);
+  EXPECT_LT((world.observations[0].position - Vec2(2.0, 2.5)).norm(), 1e-3);
+  EXPECT_EQ(world.activity(0), Activity::kTravelling);
+}
+
+TEST(GoTo, It_takes_no_part_in_coverage_until_it_is_resumed) {
+  World world;
+  world.step({go_to(0, {2.0, 2.5})});
+  EXPECT_EQ(world.snapshot.active, 2U);
+  world.step({wish(CommandKind::kResume, 0)});
+  EXPECT_EQ(world.snapshot.active, 3U);
+  EXPECT_EQ(world.activity(0), Activity::kActive);
+}
+
+TEST(GoTo, A_place_that_is_not_inside_the_field_is_refused) {
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  for (const Vec2& place : {Vec2(-0.1, 1.0), Vec2(1.0, 3.1), Vec2(nan, 1.0), Vec2(1.0, HUGE_VAL)}) {
+    World world;
+    world.step({go_to(0, place)});
+    EXPECT_FALSE(world.accepted(0));
+    EXPECT_EQ(world.activity(0), Activity::kActive);
+  }
+}
+
+TEST(GoTo, A_place_beyond_the_wall_s_distance_is_approached_as_far_as_the_wall_allows) {
+  World world;
+  world.step({go_to(0, {0.5, 0.01})});
+  world.run(20.0);
+  EXPECT_NEAR(world.observations[0].position.y(), 0.17, 1e-3);
+}
+
+TEST(GoTo, Who_is_on_the_ground_overridden_or_marked_failed_is_not_sent_anywhere) {
+  World world;
+  world.step({wish(CommandKind::kMarkFailed, 1), wish(CommandKind::kOverride, 2)});
+  world.observations[0].mode = VehicleMode::kGrounded;
+  world.step();
+  world.step({go_to(0, {1.0, 1.0}), go_to(1, {1.0, 1.0}), go_to(2, {1.0, 1.0})});
+  for (std::size_t drone = 0; drone < 3; ++drone) EXPECT_FALSE(world.accepted(drone));
+}
+
+TEST(GoTo, Landing_on_the_way_ends_the_journey_for_good) {
+  World world;
+  world.step({go_to(0, {2.0, 2.5})});
+  world.run(2.0);
+  world.step({wish(CommandKind::kLand, 0)});
+  EXPECT_EQ(world.activity(0), Activity::kLanding);
+  world.observations[0].mode = VehicleMode::kGrounded;
+  world.step();
+  EXPECT_EQ(world.activity(0), Activity::kGrounded);
+  world.observations[0].mode = VehicleMode::kFlying;  // it went up by itself
+  world.step();
+  EXPECT_EQ(world.activity(0), Activity::kHeld);
+}
+
+TEST(GoTo, A_drone_that_was_lost_on_its_way_goes_on_once_it_has_recovered) {
+  World world;
+  world.step({go_to(0, {2.0, 2.5})});
+  world.observations[0].age_s = 10.0;
+  world.step();
+  EXPECT_EQ(world.activity(0), Activity::kTrackingLost);
+  world.observations[0].age_s = 0.0;
+  world.step();
+  EXPECT_EQ(world.activity(0), Activity::kRecovering);
+  world.run(20.0);
+  EXPECT_LT((world.observations[0].position - Vec2(2.0, 2.5)).norm(), 1e-3);
+}
+
+TEST(GoTo, Travellers_keep_their_distance_from_those_that_cover) {
+  World world;
+  world.step({go_to(0, world.observations[2].position), go_to(2, world.observations[0].position)});
+  double least = HUGE_VAL;
+  for (int k = 0; k < 2000; ++k) {
+    world.step();
+    for (std::size_t i = 0; i < 3; ++i)
+      for (std::size_t j = 0; j < i; ++j)
+        least = std::min(least, (world.observations[i].position - world.observations[j].position).norm());
+  }
+  EXPECT_GE(least, 0.2 - 1e-9);
+}
+
+}  // namespace
+}  // namespace vigil::swarm
