@@ -16,7 +16,7 @@ ARROWS = {
     "core/ergodic": ("core/field",),
     "core/safety": ("core/field",),
     "core/dynamics": ("core/field",),
-    "core/guidance": ("core/field",),
+    "core/guidance": ("core/field", "core/safety"),
     "swarm": CORE,
     "runtime": (*CORE, "swarm"),
     "adapters": (*CORE, "swarm", "runtime", "protocol"),  # each adapter is a room of its own: never another one
