@@ -8,9 +8,9 @@ import re
 import sys
 
 MAX_LINES = 500
-CODE = {".hpp", ".cpp", ".py", ".sh", ".cmake", ".ts"}
+CODE = {".hpp", ".cpp", ".py", ".sh", ".cmake", ".ts", ".tsx", ".mjs", ".css"}
 TEXT = CODE | {".md", ".txt", ".yaml", ".json", ".svg", ".html", ".gp", ""}
-NOT_OURS = {".git", "build", "out", "node_modules"}
+NOT_OURS = {".git", "build", "out", "node_modules", "dist", "artefacts"}
 NOT_TEXT = ("fuzz", "corpus")  # seeds: any bytes
 
 VAGUE_NAMES = {"utils", "util", "common", "helpers", "helper", "manager", "misc"}

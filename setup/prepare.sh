@@ -40,9 +40,12 @@ not_installed() {
   installed=$(dpkg-query -W -f='|${Package} ${db:Status-Status}|' "${packages[@]}" 2>/dev/null) || true
   local line
   for line in "${lines[@]}"; do
-    [[ $installed == *"|${line%% *} installed|"* ]] || printf '%s\n' "$line"
+    [[ $installed == *"|${line%% *} installed|"* ]] || came_with_node "$line" || printf '%s\n' "$line"
   done
 }
+
+# Packages of Node from elsewhere than Debian bring their npm, and cannot be installed beside Debian's.
+came_with_node() { [[ $1 == npm\ * ]] && command -v npm >/dev/null; }
 
 # Of the lines of `wanted` on stdin, those whose command is not there.
 without_command() {
@@ -153,4 +156,19 @@ build() {
   local preset=$1
   shift
   quietly "build-$preset" "Building" cmake --build "$root/build/$preset" --target "$@"
+}
+
+# The tools of the page, at the versions of its lock file: fetched when that file has changed.
+fetch_page_tools() {
+  [[ $root/web/node_modules/.package-lock.json -nt $root/web/package-lock.json ]] ||
+    quietly page-tools "Fetching the tools of the console's page" npm --prefix "$root/web" ci
+}
+
+# The console's page, web/dist: built when something below web/ is newer than it.
+build_page() {
+  fetch_page_tools
+  local changed
+  changed=$(find "$root/web" -mindepth 1 \( -path "$root/web/node_modules" -o -path "$root/web/dist" \
+    -o -path "$root/web/artefacts" \) -prune -o -newer "$root/web/dist/index.html" -print -quit 2>&1)
+  [[ -z $changed ]] || quietly page "Building the console's page" npm --prefix "$root/web" run build
 }

@@ -1,0 +1,121 @@
+import type { Page, WebSocketRoute } from 'playwright-core';
+import { densityBytes, snapshotBytes, type DroneState, type Holding } from './frame_bytes';
+
+/**
+ * The program's side of the protocol, played by the test inside the page's own browser: for what a simulated flight cannot
+ * be asked for at will (ten thousand drones, a lost link, a restarted program). Tests only.
+ */
+export class FakeProgram {
+  readonly received: Record<string, unknown>[] = [];
+  private socket: WebSocketRoute | null = null;
+  private tick = 0;
+  drones: DroneState[];
+  holding: Holding[] = [];
+
+  constructor(
+    count: number,
+    readonly size: readonly [number, number],
+  ) {
+    this.drones = Array.from({ length: count }, (_, i) => this.placed(i, count));
+  }
+
+  /** A sunflower over the field: even, and no two at one place. */
+  private placed(i: number, count: number): DroneState {
+    const radius = 0.46 * Math.sqrt((i + 0.5) / count);
+    const angle = 2.399963 * i;
+    const [x, y] = [(0.5 + radius * Math.cos(angle)) * this.size[0], (0.5 + radius * Math.sin(angle)) * this.size[1]];
+    return { x, y, vx: -0.3 * Math.sin(angle), vy: 0.3 * Math.cos(angle), activity: 0, mode: 3, battery: 0.8 };
+  }
+
+  async attach(page: Page): Promise<void> {
+    await page.routeWebSocket('**/live', (socket) => {
+      this.socket = socket;
+      socket.onMessage((text) => this.answer(JSON.parse(String(text)) as Record<string, unknown>));
+    });
+  }
+
+  private answer(message: Record<string, unknown>): void {
+    this.received.push(message);
+    if (message['type'] === 'hello') this.greet();
+    else this.say({ type: 'ack', id: message['id'], tick: this.tick, pending: false, revision: 1 });
+  }
+
+  say(message: unknown): void {
+    this.socket?.send(JSON.stringify(message));
+  }
+
+  private greet(): void {
+    const [x, y] = this.size;
+    this.say({
+      type: 'hello',
+      protocol: 1,
+      program: 'vigil test',
+      client: 1,
+      name: 'Ana',
+      role: 'safety_pilot',
+      roles: ['viewer', 'operator', 'safety_pilot'],
+      login: false,
+    });
+    this.say({
+      type: 'mission',
+      epoch: 1,
+      fleet: 'SIM',
+      mission: { name: 'played', drones: this.drones.map((_, i) => ({ id: `d${i + 1}` })) },
+      display: {
+        field: { length_x_m: x, length_y_m: y, origin_m: [0, 0], yaw_rad: 0 },
+        dt_s: 0.02,
+        separation_m: 0.2,
+        contact_distance_m: 0.1,
+        wall_distance_m: 0.17,
+        no_fly_buffer_m: 0.17,
+        barrier_radius_m: 0.2,
+        speed_limit_m_s: 0.3,
+        footprint_radius_m: 0.3,
+        sigma_min_m: 0.15,
+        can_change_speed: true,
+        can_pause: true,
+        most_speed: 20,
+      },
+    });
+    this.say({
+      type: 'targets',
+      epoch: 1,
+      revision: 1,
+      by: 'mission',
+      what: '',
+      can_undo: false,
+      can_redo: false,
+      undo_what: '',
+      redo_what: '',
+      clusters: [],
+      areas: [],
+      no_fly: [],
+      uniform_floor: 0.5,
+    });
+    this.socket?.send(densityBytes(this.size, 96, 96, (u, v) => Math.exp(-30 * ((u - 0.3) ** 2 + (v - 0.6) ** 2))));
+    this.sendSnapshot();
+  }
+
+  /** Moves every drone by 50 ms on its circle, and says so. */
+  step(): void {
+    this.tick++;
+    for (const drone of this.drones) {
+      drone.x += 0.05 * drone.vx;
+      drone.y += 0.05 * drone.vy;
+      [drone.vx, drone.vy] = [drone.vx - 0.02 * drone.vy, drone.vy + 0.02 * drone.vx];
+    }
+    this.sendSnapshot();
+  }
+
+  private sendSnapshot(): void {
+    const timeS = this.tick * 0.05;
+    const figures = {
+      tick: this.tick,
+      timeS,
+      metricPercent: 100 * Math.exp(-timeS / 20),
+      worstAgeS: 4,
+      leastPairM: 0.31,
+    };
+    this.socket?.send(snapshotBytes(this.drones, figures, this.holding));
+  }
+}

@@ -1,0 +1,51 @@
+import type { Point } from '../model/geometry';
+import { toScreen, type Camera, type Size } from './camera';
+import type { Palette } from './palette';
+
+export type Canvas2d = CanvasRenderingContext2D;
+
+/** Everything a 2-D layer needs to draw in world coordinates on a canvas in CSS pixels. */
+export interface Pen {
+  readonly context: Canvas2d;
+  readonly camera: Camera;
+  readonly size: Size;
+  readonly palette: Palette;
+}
+
+export const kFont = '500 12px "Inter", system-ui, "Segoe UI", "Noto Sans", "DejaVu Sans", sans-serif';
+
+export const at = (pen: Pen, p: Point): Point => toScreen(pen.camera, pen.size, p);
+
+export function tracePath(pen: Pen, points: readonly Point[], closed: boolean): void {
+  const { context } = pen;
+  context.beginPath();
+  points.forEach((point, i) => {
+    const [x, y] = at(pen, point);
+    if (i === 0) context.moveTo(x, y);
+    else context.lineTo(x, y);
+  });
+  if (closed) context.closePath();
+}
+
+/** Text with a halo, so that it reads on any layer. */
+export function label(
+  pen: Pen,
+  text: string,
+  x: number,
+  y: number,
+  colour: string,
+  align: CanvasTextAlign = 'left',
+): void {
+  const { context, palette } = pen;
+  context.font = kFont;
+  context.textAlign = align;
+  context.lineJoin = 'round';
+  context.lineWidth = 3.5;
+  context.strokeStyle = palette.halo;
+  context.strokeText(text, x, y);
+  context.fillStyle = colour;
+  context.fillText(text, x, y);
+}
+
+export const isOnScreen = (size: Size, [x, y]: Point, margin = 40): boolean =>
+  x > -margin && y > -margin && x < size.width + margin && y < size.height + margin;

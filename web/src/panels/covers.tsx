@@ -1,0 +1,162 @@
+import { useSignal } from '@preact/signals';
+import { useEffect } from 'preact/hooks';
+import type { Point } from '../model/geometry';
+import { isEmpty, type Edit } from '../model/targets';
+import { age } from '../model/units';
+import { useApp } from './app_context';
+import { Icon } from './icons';
+import { WhoForm } from './who_menu';
+
+/** What lies over the map while there is no picture, or no fresh one. */
+export function Covers() {
+  const { session, map } = useApp();
+  const { phase } = session.linkState.value;
+  if (phase === 'refused') return <Refused />;
+  if (!session.hasSnapshot.value) return <Loading />;
+  if (phase !== 'live') return <Disconnected />;
+  return (
+    <>
+      {map.value?.problem.value && (
+        <div class="banner is-calm" role="status">
+          <p>{map.value.problem.value}</p>
+        </div>
+      )}
+      {session.status.value?.waits_for_resume && <Restarted />}
+      <Empty />
+    </>
+  );
+}
+
+function Loading() {
+  const { session } = useApp();
+  const { phase, reason } = session.linkState.value;
+  const steps = [
+    ['Connect to the program', session.hello.value !== null],
+    ['Read the mission', session.mission.value !== null],
+    ['Read the targets', session.targets.value !== null],
+    ['First picture of the swarm', session.hasSnapshot.value],
+  ] as const;
+  const current = steps.findIndex(([, isDone]) => !isDone);
+  return (
+    <div class="cover" role="status">
+      <h2>{phase === 'lost' ? 'No connection yet' : 'Loading'}</h2>
+      {phase === 'lost' && <p>{reason} Is the program running? The console tries again by itself.</p>}
+      <ol>
+        {steps.map(([name, isDone], i) => (
+          <li key={name} class={isDone ? 'ok' : i === current ? '' : 'dim'}>
+            <Icon name={isDone ? 'ok' : 'info'} />
+            {name}
+            {i === current && <span class="skeleton" style={{ flex: 1, height: '10px' }} aria-hidden="true" />}
+          </li>
+        ))}
+      </ol>
+    </div>
+  );
+}
+
+function Refused() {
+  const { session } = useApp();
+  return (
+    <div class="cover" role="alert">
+      <h2>The program wants a token</h2>
+      <p>{session.linkState.value.reason} Nothing is shown before; the drones are not affected.</p>
+      <WhoForm done={() => undefined} />
+    </div>
+  );
+}
+
+function Disconnected() {
+  const { session } = useApp();
+  const now = useSignal(0);
+  useEffect(() => {
+    const timer = window.setInterval(() => now.value++, 250);
+    return () => window.clearInterval(timer);
+  }, []);
+  void now.value;
+  const { reason, retryAtMs, phase } = session.linkState.value;
+  const wait = retryAtMs === null ? 0 : Math.max(0, (retryAtMs - session.world.nowMs()) / 1000);
+  return (
+    <div class="banner" data-testid="disconnected">
+      <span class="alarm">
+        <Icon name="alarm" />
+      </span>
+      <p>
+        <strong class="alarm">
+          <span role="alert">Disconnected.</span> What you see is {age(session.dataAgeS())} old and frozen.
+        </strong>
+        {reason} Editing is off. The drones need no console: the program goes on covering with the last committed
+        targets; should the program itself be gone, each vehicle hovers and then lands by its own failsafe.
+        {phase === 'lost' && <span class="dim"> Next try in {wait.toFixed(0)} s.</span>}
+      </p>
+      <button type="button" onClick={() => session.link.open()}>
+        Try now
+      </button>
+    </div>
+  );
+}
+
+function Restarted() {
+  const { session, orders } = useApp();
+  return (
+    <div class="banner is-calm" role="alert">
+      <span class="warning">
+        <Icon name="warning" />
+      </span>
+      <p>
+        <strong>The program was restarted.</strong>
+        It has its mission, targets and coverage back; the drones hold until you let them go on.
+      </p>
+      <button
+        type="button"
+        class="primary"
+        disabled={!session.mayOperate.value}
+        onClick={() => orders.to('resume', 'all')}
+      >
+        Resume all
+      </button>
+    </div>
+  );
+}
+
+function Empty() {
+  const { session, editor } = useApp();
+  const isHidden =
+    !isEmpty(session.draft.value) ||
+    session.targets.value === null ||
+    editor.sketch.value.length > 0 ||
+    editor.tool.value !== 'select';
+  if (isHidden) return null;
+  const mayEdit = session.mayOperate.value;
+  return (
+    <div class="cover">
+      <h2>Drop points on the field to start</h2>
+      <p>Nothing is watched, so the drones hover. Click a few places that matter; Enter sends the swarm.</p>
+      <div class="row">
+        <button type="button" class="primary" disabled={!mayEdit} onClick={() => editor.take('point')}>
+          <Icon name="point" />
+          Take the point tool
+        </button>
+        <button
+          type="button"
+          disabled={!mayEdit}
+          onClick={() => editor.stage('an example of three clusters', ...example())}
+        >
+          Load an example
+        </button>
+      </div>
+    </div>
+  );
+
+  /** Three clusters of five points, scaled to the field. */
+  function example(): Edit[] {
+    const field = session.field.value!;
+    const places = [['north', 0.28, 0.74], ['east', 0.76, 0.6], ['south', 0.48, 0.22]] as const; // prettier-ignore
+    const around = [[0, 0], [0.05, 0.03], [-0.05, 0.04], [0.03, -0.05], [-0.04, -0.04]] as const; // prettier-ignore
+    return places.map(([name, cx, cy]): Edit => {
+      const points_m = around.map(([dx, dy]): Point =>
+        field.toWorld([(cx + dx) * field.size[0], (cy + dy) * field.size[1]]),
+      );
+      return { op: 'add', kind: 'cluster', entry: { name, points_m, weight: 1, revisit_s: null } };
+    });
+  }
+}

@@ -1,0 +1,58 @@
+import type { ComponentChildren } from 'preact';
+import { useEffect, useRef, useState } from 'preact/hooks';
+
+const kHoldMs = 1000;
+
+interface Props {
+  readonly label: string;
+  readonly disabled: boolean;
+  readonly title: string;
+  readonly onConfirmed: () => void;
+  readonly children: ComponentChildren;
+}
+
+/** A button that acts only when it is held for a second, with pointer, Space or Enter. */
+export function HoldButton({ label, disabled, title, onConfirmed, children }: Props) {
+  const [isHeld, setHeld] = useState(false);
+  const timer = useRef(0);
+  const release = (): void => {
+    window.clearTimeout(timer.current);
+    timer.current = 0;
+    setHeld(false);
+  };
+  const hold = (): void => {
+    if (disabled || timer.current !== 0) return;
+    setHeld(true);
+    timer.current = window.setTimeout(() => {
+      release();
+      onConfirmed();
+    }, kHoldMs);
+  };
+  useEffect(() => release, []);
+  const isPress = (event: KeyboardEvent): boolean => event.key === ' ' || event.key === 'Enter';
+  return (
+    <button
+      type="button"
+      class={`stop ${isHeld ? 'is-held' : ''}`}
+      disabled={disabled}
+      aria-label={label}
+      title={title}
+      onPointerDown={hold}
+      onPointerUp={release}
+      onPointerLeave={release}
+      onPointerCancel={release}
+      onBlur={release}
+      onContextMenu={(event) => event.preventDefault()}
+      onKeyDown={(event) => {
+        if (!isPress(event)) return;
+        event.preventDefault();
+        event.stopPropagation();
+        hold();
+      }}
+      onKeyUp={(event) => isPress(event) && release()}
+    >
+      <span class="fill" />
+      {children}
+    </button>
+  );
+}

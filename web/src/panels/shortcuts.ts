@@ -1,0 +1,113 @@
+import { actionOf, chordOf, TwoPresses, type Action } from '../model/keyboard';
+import type { App } from './app_context';
+
+const kStopArmedMs = 800;
+
+/** Keys of the whole page. Fields, open dialogs and pressed buttons keep theirs. */
+export function listenForKeys(app: App): void {
+  const stop = new TwoPresses();
+  window.addEventListener('keydown', (event) => {
+    const chord = chordOf({
+      key: event.key,
+      ctrl: event.ctrlKey || event.metaKey,
+      shift: event.shiftKey,
+      alt: event.altKey,
+    });
+    const action = actionOf(app.settings.keys.value, chord);
+    if (action === null || event.repeat || belongsToField(event, action)) return;
+    event.preventDefault();
+    if (action === 'emergency-stop') pressStop(app, stop, event.timeStamp);
+    else if (action.startsWith('drone-')) selectDrone(app, Number(action.slice('drone-'.length)));
+    else perform(app, action as Action);
+  });
+}
+
+/** Letters belong to a text field, Enter and Space to a button that has the focus. */
+function belongsToField(event: KeyboardEvent, action: string): boolean {
+  const target = event.target as HTMLElement;
+  if (target.closest('dialog[open]')) return true;
+  const isText = target.matches('input:not([type=checkbox]), textarea, select');
+  if (isText) return true;
+  const isButton = target.matches('button, a, input, summary');
+  return isButton && (action === 'commit' || action === 'place-here');
+}
+
+function pressStop(app: App, stop: TwoPresses, now: number): void {
+  const { session } = app;
+  if (!session.mayStopMotors.value) {
+    session.notify(
+      'warning',
+      session.isLive.value ? 'Only a safety pilot may stop motors.' : 'Not connected: nothing was sent.',
+    );
+    return;
+  }
+  if (stop.press(now)) {
+    app.isStopArmed.value = false;
+    app.orders.emergencyStop('all');
+    return;
+  }
+  app.isStopArmed.value = true;
+  session.notify('warning', 'Press . once more within 0.8 s to stop ALL motors.');
+  window.setTimeout(() => (app.isStopArmed.value = false), kStopArmedMs);
+}
+
+function selectDrone(app: App, number: number): void {
+  if (number <= app.session.droneIds.value.length) app.editor.selectDrones([number - 1]);
+}
+
+function perform(app: App, action: Action): void {
+  kDeeds[action](app);
+}
+
+const pausing = (app: App): void => {
+  const isPaused = app.session.snapshot?.isPaused ?? false;
+  if (app.session.mission.value?.display.can_pause)
+    void app.session.command({ type: isPaused ? 'resume_clock' : 'pause' });
+};
+
+/** Space at the map's cursor; with the selecting tool it takes what is there. */
+const placing = (app: App): void => {
+  const cursor = app.editor.cursor.value;
+  if (!cursor) app.session.notify('info', 'Move the map’s cursor with the arrow keys first.');
+  else if (app.editor.tool.value === 'select') app.map.value?.selectAt(cursor);
+  else app.editor.placeAt(cursor);
+};
+
+const kDeeds: Record<Action, (app: App) => void> = {
+  'tool-select': (app) => app.editor.take('select'),
+  'tool-point': (app) => app.editor.take('point'),
+  'tool-lasso': (app) => app.editor.take('lasso'),
+  'tool-brush': (app) => app.editor.take('brush'),
+  'tool-area': (app) => app.editor.take('area'),
+  'tool-no-fly': (app) => app.editor.take('no-fly'),
+  'tool-measure': (app) => app.editor.take('measure'),
+  'place-here': placing,
+  edit: () => document.querySelector<HTMLInputElement>('[data-testid="entry-editor"] input')?.focus(),
+  remove: (app) => app.editor.remove(),
+  commit: (app) => void app.editor.commit(),
+  drop: (app) => app.editor.drop(),
+  undo: (app) => app.editor.undo(),
+  redo: (app) => app.editor.redo(),
+  'all-drones': (app) => app.editor.selectDrones(app.session.droneIds.value.keys()),
+  'take-off': (app) => app.orders.toSelected('take_off'),
+  land: (app) => app.orders.toSelected('land'),
+  'land-all': (app) => app.orders.landAll(),
+  hold: (app) => app.orders.toSelected('hold'),
+  resume: (app) => app.orders.toSelected('resume'),
+  'mark-failed': (app) => app.orders.toSelected('mark_failed'),
+  'give-back': (app) => app.orders.toSelected('give_back'),
+  'emergency-stop': () => undefined,
+  'layer-density': (app) => app.settings.toggle('density'),
+  'layer-coverage': (app) => app.settings.toggle('coverage'),
+  'layer-age': (app) => app.settings.toggle('age'),
+  'layer-trails': (app) => app.settings.toggle('trails'),
+  'layer-radii': (app) => app.settings.toggle('radii'),
+  fit: (app) => app.map.value?.fitField(),
+  'zoom-in': (app) => app.map.value?.zoom(1.4),
+  'zoom-out': (app) => app.map.value?.zoom(1 / 1.4),
+  'pause-clock': pausing,
+  'event-log': (app) => (app.isLogOpen.value = !app.isLogOpen.value),
+  theme: (app) => (app.settings.theme.value = app.settings.theme.value === 'dark' ? 'light' : 'dark'),
+  mute: (app) => (app.settings.isMuted.value = !app.settings.isMuted.value),
+  help: (app) => (app.isHelpOpen.value = true),
+};

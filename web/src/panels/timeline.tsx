@@ -1,0 +1,52 @@
+import type { SwarmEvent } from '../link/messages';
+import { clock } from '../model/units';
+import { useApp } from './app_context';
+import { Icon } from './icons';
+
+const kWindowS = 120;
+const kTicks = 6;
+
+/** The last two minutes with what happened in them; the event log says the same in words. */
+export function Timeline() {
+  const { session, isLogOpen } = useApp();
+  void session.beat.value;
+  const now = session.snapshot?.timeS ?? 0;
+  const from = Math.max(0, now - kWindowS);
+  const span = Math.max(30, now - from);
+  const share = (time: number): string => `${(100 * (time - from)) / span}%`;
+  const step = span / kTicks;
+  const shown = session.events.value.filter((event) => event.time_s >= from && event.time_s <= now).slice(-60);
+  return (
+    <div class="timeline">
+      <div class="track" role="img" aria-label={describe(shown)}>
+        {Array.from({ length: kTicks }, (_, i) => (
+          <span key={i} class="tick" style={{ left: share(from + (i + 0.5) * step) }}>
+            {clock(from + (i + 0.5) * step)}
+          </span>
+        ))}
+        {shown.map((event) => (
+          <span
+            key={event.number}
+            class={`mark ${event.severity}`}
+            style={{ left: share(event.time_s) }}
+            title={`${clock(event.time_s)} ${event.text}`}
+          >
+            <Icon name={event.severity} small />
+          </span>
+        ))}
+      </div>
+      <button type="button" class="quiet" onClick={() => (isLogOpen.value = !isLogOpen.value)}>
+        <Icon name="log" />
+        Events
+      </button>
+    </div>
+  );
+}
+
+function describe(events: readonly SwarmEvent[]): string {
+  if (events.length === 0) return 'Timeline: nothing happened in the last two minutes';
+  return `Timeline: ${events
+    .slice(-8)
+    .map((event) => `${clock(event.time_s)} ${event.text}`)
+    .join('; ')}`;
+}

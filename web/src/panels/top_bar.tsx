@@ -1,0 +1,163 @@
+import { useSignal } from '@preact/signals';
+import { useEffect } from 'preact/hooks';
+import { age, clock } from '../model/units';
+import { useApp } from './app_context';
+import { HoldButton } from './hold_button';
+import { Icon } from './icons';
+import { MissionMenu } from './mission_menu';
+import { WhoMenu } from './who_menu';
+
+export function TopBar() {
+  const { session, orders, isHelpOpen, isLogOpen, settings, isStopArmed } = useApp();
+  return (
+    <header class="top">
+      <WhatFlies />
+      <DataAge />
+      <MissionClock />
+      <span class="space" />
+      <div class="group">
+        <MissionMenu />
+        <IconButton
+          icon="log"
+          label="Event log"
+          pressed={isLogOpen.value}
+          act={() => (isLogOpen.value = !isLogOpen.value)}
+        />
+        <IconButton
+          icon={settings.isMuted.value ? 'mute' : 'sound'}
+          label={settings.isMuted.value ? 'Sound the alarms' : 'Mute the alarms'}
+          act={() => (settings.isMuted.value = !settings.isMuted.value)}
+        />
+        <IconButton
+          icon={settings.theme.value === 'dark' ? 'sun' : 'moon'}
+          label={settings.theme.value === 'dark' ? 'Light theme' : 'Dark theme'}
+          act={() => (settings.theme.value = settings.theme.value === 'dark' ? 'light' : 'dark')}
+        />
+        <IconButton icon="help" label="Help and keys" act={() => (isHelpOpen.value = true)} />
+        <WhoMenu />
+      </div>
+      <div class="group">
+        <button
+          type="button"
+          class="land-all"
+          disabled={!session.mayOperate.value}
+          title="Every drone lands where it is (Shift+L)"
+          onClick={() => orders.landAll()}
+        >
+          <Icon name="land" />
+          LAND ALL
+        </button>
+        <HoldButton
+          label="Emergency stop of all drones: hold for one second"
+          title="Motors off, all drones: hold for one second, or press . twice"
+          disabled={!session.mayStopMotors.value}
+          onConfirmed={() => orders.emergencyStop('all')}
+        >
+          <span>{isStopArmed.value ? 'ONCE MORE: .' : 'EMERGENCY STOP'}</span>
+        </HoldButton>
+      </div>
+    </header>
+  );
+}
+
+interface IconButtonProps {
+  readonly icon: Parameters<typeof Icon>[0]['name'];
+  readonly label: string;
+  readonly pressed?: boolean;
+  readonly act: () => void;
+}
+
+function IconButton({ icon, label, pressed, act }: IconButtonProps) {
+  return (
+    <button type="button" class="quiet" aria-label={label} title={label} aria-pressed={pressed} onClick={act}>
+      <Icon name={icon} />
+    </button>
+  );
+}
+
+function WhatFlies() {
+  const { session } = useApp();
+  const mission = session.mission.value;
+  const isLive = session.isLive.value;
+  return (
+    <div class="group">
+      <span class={`badge ${isLive ? 'is-fresh ok' : 'alarm'}`} data-testid="badge">
+        <span class="dot" />
+        {isLive ? (mission?.fleet ?? '…') : 'STALE'}
+      </span>
+      <div class="brand">
+        <strong>{mission?.mission.name ?? 'vigil'}</strong>
+        <span>{mission ? `${mission.mission.drones.length} drones` : 'connecting'}</span>
+      </div>
+    </div>
+  );
+}
+
+/** Counts on its own while nothing comes: old data must be seen to age. */
+function DataAge() {
+  const { session } = useApp();
+  const now = useSignal(0);
+  useEffect(() => {
+    const timer = window.setInterval(() => now.value++, 250);
+    return () => window.clearInterval(timer);
+  }, []);
+  void session.beat.value;
+  void now.value;
+  const seconds = session.dataAgeS();
+  const isOld = !session.isLive.value || seconds > 0.5;
+  return (
+    <div class="figure" title="Time since what is shown was true">
+      <span class="name">data age</span>
+      <span class={`value ${isOld ? 'alarm' : ''}`} data-testid="data-age">
+        {age(seconds)}
+      </span>
+    </div>
+  );
+}
+
+function MissionClock() {
+  const { session } = useApp();
+  void session.beat.value;
+  const { snapshot } = session;
+  const display = session.mission.value?.display;
+  const isPaused = snapshot?.isPaused ?? false;
+  return (
+    <div class="group">
+      <div class="figure">
+        <span class="name">mission</span>
+        <span class="value" data-testid="mission-clock">
+          {snapshot ? clock(snapshot.timeS) : '–'}
+          {isPaused && <small> paused</small>}
+        </span>
+      </div>
+      {display?.can_pause && (
+        <IconButton
+          icon={isPaused ? 'play' : 'pause'}
+          label={isPaused ? 'Go on' : 'Pause the simulation'}
+          act={() => void session.command({ type: isPaused ? 'resume_clock' : 'pause' })}
+        />
+      )}
+      {display?.can_change_speed && <SpeedChoice most={display.most_speed} speed={snapshot?.speed ?? 1} />}
+    </div>
+  );
+}
+
+function SpeedChoice({ most, speed }: { most: number; speed: number }) {
+  const { session } = useApp();
+  const factors = [1, 2, 5, 10, 20].filter((factor) => factor <= most);
+  const shown = factors.includes(speed) ? factors : [...factors, speed];
+  return (
+    <select
+      aria-label="Speed of the simulation"
+      value={String(speed)}
+      disabled={!session.mayOperate.value}
+      onChange={(event) => void session.command({ type: 'set_speed', factor: Number(event.currentTarget.value) })}
+    >
+      {shown.map((factor) => (
+        <option key={factor} value={String(factor)}>
+          {factor}×
+        </option>
+      ))}
+    </select>
+  );
+}

@@ -1,0 +1,308 @@
+import { computed, signal } from '@preact/signals';
+import {
+  add,
+  area,
+  centroid,
+  contains,
+  crossesItself,
+  distance,
+  fillWithPoints,
+  scaled,
+  simplify,
+  type Point,
+} from '../model/geometry';
+import { editsOf, isStaged, nothingStaged, redoStep, restage, stage, undoStep, type Step } from '../model/staging';
+import { find, freeName, pointsOf, withPoints, type Edit, type EntryName } from '../model/targets';
+import type { Session } from './session';
+
+export const kTools = ['select', 'point', 'lasso', 'brush', 'area', 'no-fly', 'measure'] as const;
+export type Tool = (typeof kTools)[number];
+
+const kLassoPoints = 12;
+const kMostStrokePoints = 200;
+const kMostOutline = 200;
+
+/** What a person does to the targets: selection, the tool in hand, what is being drawn, and staged edits. */
+export class Editor {
+  readonly tool = signal<Tool>('select');
+  readonly selected = signal<EntryName | null>(null);
+  /** The point or vertex of the selected entry. */
+  readonly selectedPoint = signal<number | null>(null);
+  readonly selectedDrones = signal<ReadonlySet<number>>(new Set());
+  /** Corners of the polygon, or the line of the lasso or brush, that is being drawn. */
+  readonly sketch = signal<readonly Point[]>([]);
+  readonly measured = signal<readonly Point[]>([]);
+  /** Where the keyboard would act on the map; null until an arrow key is pressed there. */
+  readonly cursor = signal<Point | null>(null);
+  readonly isCommitting = signal(false);
+
+  readonly selectedEntry = computed(() => {
+    const which = this.selected.value;
+    return which && find(this.session.draft.value, which);
+  });
+
+  constructor(readonly session: Session) {}
+
+  take(tool: Tool): void {
+    this.tool.value = tool;
+    this.sketch.value = [];
+    if (tool !== 'measure') this.measured.value = [];
+    if (tool === 'area' || tool === 'no-fly') this.select(null);
+  }
+
+  select(which: EntryName | null, point: number | null = null): void {
+    this.selected.value = which;
+    this.selectedPoint.value = point;
+  }
+
+  selectDrones(drones: Iterable<number>): void {
+    this.selectedDrones.value = new Set(drones);
+  }
+
+  toggleDrone(drone: number): void {
+    const next = new Set(this.selectedDrones.value);
+    if (!next.delete(drone)) next.add(drone);
+    this.selectedDrones.value = next;
+  }
+
+  /** Those inside the outline; `places`: x and y by turns, world frame. */
+  selectDronesInside(outline: readonly Point[], places: Float64Array): void {
+    const drones = [...this.session.droneIds.value.keys()];
+    this.selectDrones(drones.filter((i) => contains(outline, [places[2 * i]!, places[2 * i + 1]!])));
+  }
+
+  // --- staging ----------------------------------------------------------------------------------------------------
+
+  stage(what: string, ...edits: Edit[]): boolean {
+    return this.put({ what, edits }, false);
+  }
+
+  /** A later moment of the same drag: replaces what its first moment staged. */
+  stageAgain(what: string, ...edits: Edit[]): boolean {
+    return this.put({ what, edits }, true);
+  }
+
+  private put(step: Step, again: boolean): boolean {
+    const { session } = this;
+    if (!this.mayEdit()) return false;
+    const revision = session.targets.value?.revision ?? 0;
+    session.restage((again ? restage : stage)(session.staging.value, step, revision));
+    return true;
+  }
+
+  private mayEdit(): boolean {
+    const { session } = this;
+    if (session.mayOperate.value) return true;
+    session.notify(
+      'warning',
+      session.isLive.value ? 'Your role may look, not edit.' : 'Not connected: editing is off.',
+    );
+    return false;
+  }
+
+  /** Closes what is being drawn, or else commits what is staged. */
+  async commit(): Promise<void> {
+    if (this.sketch.value.length > 0) {
+      this.finishSketch();
+      return;
+    }
+    const { session } = this;
+    const staging = session.staging.value;
+    if (!isStaged(staging) || this.isCommitting.value || !this.mayEdit()) return;
+    this.isCommitting.value = true;
+    session.isCommitting = true;
+    const answer = await session.link.command({ type: 'edit', based_on: staging.basedOn, edits: editsOf(staging) });
+    this.isCommitting.value = false;
+    session.isCommitting = false;
+    const revision = session.targets.value?.revision ?? 0;
+    if (answer.ok) {
+      session.restage(nothingStaged(revision));
+      session.notify('info', 'Committed: the swarm follows.');
+      return;
+    }
+    session.notify('warning', answer.refused.reason);
+    if (answer.refused.code === 'stale') session.restage({ ...staging, basedOn: revision });
+  }
+
+  /** Drops what is being drawn, or else what is staged, or else the selection. */
+  drop(): void {
+    if (this.sketch.value.length > 0) this.sketch.value = [];
+    else if (this.measured.value.length > 0) this.measured.value = [];
+    else if (this.session.isStaged.value) {
+      this.session.restage(nothingStaged(this.session.targets.value?.revision ?? 0));
+      this.session.notify('info', 'Staged edits dropped.');
+    } else if (this.tool.value !== 'select') this.take('select');
+    else {
+      this.select(null);
+      this.selectDrones([]);
+    }
+  }
+
+  undo(): void {
+    const { session } = this;
+    if (this.sketch.value.length > 0) this.sketch.value = this.sketch.value.slice(0, -1);
+    else if (session.isStaged.value) session.restage(undoStep(session.staging.value));
+    else if (!session.targets.value?.can_undo) session.notify('info', 'Nothing to undo.');
+    else if (this.mayEdit()) void session.command({ type: 'undo' }, `Undone: ${session.targets.value.undo_what}`);
+  }
+
+  redo(): void {
+    const { session } = this;
+    if (session.staging.value.undone.length > 0) session.restage(redoStep(session.staging.value));
+    else if (!session.targets.value?.can_redo) session.notify('info', 'Nothing to redo.');
+    else if (this.mayEdit()) void session.command({ type: 'redo' }, `Done again: ${session.targets.value.redo_what}`);
+  }
+
+  // --- points and shapes ------------------------------------------------------------------------------------------
+
+  /** Uses the tool in hand at this place of the world; true where something came of it. */
+  placeAt(p: Point): boolean {
+    const tool = this.tool.value;
+    if (tool === 'measure') {
+      this.measured.value = this.measured.value.length === 1 ? [this.measured.value[0]!, p] : [p];
+      return true;
+    }
+    if (tool === 'select' || !this.isInside(p)) return false;
+    if (tool === 'area' || tool === 'no-fly') {
+      if (this.mayEdit()) this.sketch.value = [...this.sketch.value, p].slice(0, kMostOutline);
+      return true;
+    }
+    return this.addPoints([p]);
+  }
+
+  private isInside(p: Point): boolean {
+    const inside = this.session.field.value?.contains(p) ?? false;
+    if (!inside) this.session.notify('warning', 'That is outside of the field.');
+    return inside;
+  }
+
+  /** Adds points to the selected cluster; where none is selected, to a new one. */
+  addPoints(points: readonly Point[]): boolean {
+    if (points.length === 0) return false;
+    const selected = this.selected.value;
+    const name =
+      selected?.kind === 'cluster' && this.selectedEntry.value
+        ? selected.name
+        : freeName(this.session.draft.value, 'cluster', 'targets');
+    const edits = points.map((point_m): Edit => ({
+      op: 'add_point',
+      kind: 'cluster',
+      name,
+      point_m: rounded(point_m),
+    }));
+    const what = points.length === 1 ? `a point in ${name}` : `${points.length} points in ${name}`;
+    if (!this.stage(what, ...edits)) return false;
+    this.select({ kind: 'cluster', name });
+    return true;
+  }
+
+  /** The free-hand line of lasso, brush or outline is done. */
+  finishSketch(): void {
+    const line = this.sketch.value;
+    const tool = this.tool.value;
+    this.sketch.value = [];
+    if (tool === 'brush') this.addPoints(this.alongStroke(line));
+    else if (tool === 'lasso') this.finishLasso(line);
+    else this.finishOutline(tool === 'no-fly' ? 'no_fly' : 'area', line);
+  }
+
+  private finishLasso(line: readonly Point[]): void {
+    if (line.length < 3) return;
+    const spacing = Math.sqrt(area(line) / kLassoPoints);
+    const points = spacing > 0 ? fillWithPoints(line, spacing, 2 * kLassoPoints) : [];
+    this.addPoints(points.filter((p) => this.session.field.value?.contains(p)));
+  }
+
+  private alongStroke(line: readonly Point[]): Point[] {
+    const spacing = 0.04 * this.shorterSide();
+    const kept: Point[] = [];
+    for (const p of line) {
+      const last = kept[kept.length - 1];
+      if ((!last || distance(last, p) >= spacing) && this.session.field.value?.contains(p)) kept.push(p);
+    }
+    return kept.slice(0, kMostStrokePoints);
+  }
+
+  private finishOutline(kind: 'area' | 'no_fly', line: readonly Point[]): void {
+    // A hand-drawn outline has hundreds of points; those that matter are kept.
+    const outline = line.length > 12 ? simplify([...line, line[0]!], 0.006 * this.shorterSide()).slice(0, -1) : line;
+    if (outline.length < 3) {
+      this.session.notify('warning', 'An outline needs at least three corners.');
+      return;
+    }
+    if (crossesItself(outline)) {
+      this.session.notify('warning', 'That outline crosses itself: draw it again without a crossing.');
+      return;
+    }
+    this.addOutline(kind, outline);
+  }
+
+  addOutline(kind: 'area' | 'no_fly', points: readonly Point[], name?: string): void {
+    const field = this.session.field.value;
+    const outline_m = points.map((p) => rounded(field ? field.clamped(p) : p));
+    const free = freeName(this.session.draft.value, kind, name ?? (kind === 'area' ? 'area' : 'no-fly'));
+    const entry =
+      kind === 'area'
+        ? { name: free, outline_m, weight: 5, soft_edge_m: 0, revisit_s: null }
+        : { name: free, outline_m };
+    if (this.stage(`${kind === 'area' ? 'area' : 'no-fly polygon'} ${free}`, { op: 'add', kind, entry }))
+      this.select({ kind, name: free });
+  }
+
+  remove(): void {
+    const which = this.selected.value;
+    const entry = this.selectedEntry.value;
+    if (!which || !entry) return;
+    const point = this.selectedPoint.value;
+    const least = which.kind === 'cluster' ? 2 : 4;
+    if (point !== null && pointsOf(entry).length >= least) {
+      this.stage(`a point of ${which.name} removed`, { op: 'remove_point', ...which, index: point });
+      this.selectedPoint.value = null;
+    } else if (this.stage(`${which.name} removed`, { op: 'remove', ...which })) this.select(null);
+  }
+
+  movePoint(which: EntryName, index: number, to: Point, again: boolean): void {
+    const point_m = rounded(this.session.field.value?.clamped(to) ?? to);
+    this.put(
+      { what: `a point of ${which.name} moved`, edits: [{ op: 'move_point', ...which, index, point_m }] },
+      again,
+    );
+  }
+
+  setWeight(which: EntryName, weight: number): void {
+    const rounding = weight < 10 ? 100 : 10;
+    const kept = Math.min(1_000_000, Math.max(0, Math.round(weight * rounding) / rounding));
+    this.merge(`${which.name}: weight ${kept}`, { op: 'set_weight', ...which, weight: kept });
+  }
+
+  /** Turning a wheel or holding a key makes one step, not twenty. */
+  private merge(what: string, edit: Extract<Edit, { op: 'set_weight' }>): void {
+    const { steps } = this.session.staging.value;
+    const last = steps[steps.length - 1]?.edits[0];
+    const isSame = last?.op === edit.op && last.kind === edit.kind && last.name === edit.name;
+    this.put({ what, edits: [edit] }, isSame);
+  }
+
+  /** Moves the entry as it was, `from`, by so much, or spreads it by a factor around its centre. */
+  reshape(which: EntryName, from: readonly Point[], by: Point, factor: number, again: boolean): void {
+    const entry = find(this.session.draft.value, which);
+    if (!entry) return;
+    const field = this.session.field.value;
+    const points = scaled(from, factor).map((p) => rounded(field ? field.clamped(add(p, by)) : add(p, by)));
+    const edit: Edit = { op: 'replace', ...which, entry: withPoints(entry, points) };
+    this.put({ what: factor === 1 ? `${which.name} moved` : `${which.name} spread`, edits: [edit] }, again);
+  }
+
+  centreOf = (which: EntryName): Point | null => {
+    const entry = find(this.session.draft.value, which);
+    return entry && centroid(pointsOf(entry));
+  };
+
+  private shorterSide(): number {
+    const size = this.session.field.value?.size ?? [1, 1];
+    return Math.min(size[0], size[1]);
+  }
+}
+
+/** A micrometre is finer than any place that a person can mean, and keeps messages short. */
+const rounded = (p: Point): Point => [Math.round(p[0] * 1e6) / 1e6, Math.round(p[1] * 1e6) / 1e6];

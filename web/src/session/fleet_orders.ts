@@ -1,0 +1,50 @@
+import type { Editor } from './editor';
+import type { Session } from './session';
+
+/** What an operator may ask of drones, in the order of the buttons. */
+export const kOrders = ['take_off', 'land', 'hold', 'resume', 'mark_failed', 'give_back'] as const;
+export type Order = (typeof kOrders)[number];
+
+export const kOrderNames: Record<Order, string> = {
+  take_off: 'Take off',
+  land: 'Land',
+  hold: 'Hold',
+  resume: 'Resume',
+  mark_failed: 'Mark failed',
+  give_back: 'Give back',
+};
+
+/** Orders to the selected drones, or to all. */
+export class FleetOrders {
+  constructor(
+    private readonly session: Session,
+    private readonly editor: Editor,
+  ) {}
+
+  /** To the selected drones; says so when none is. */
+  toSelected(order: Order): void {
+    const drones = this.selectedIds();
+    if (drones.length === 0) this.session.notify('info', 'Select drones first: a digit, Ctrl+A, the table or the map.');
+    else this.to(order, drones);
+  }
+
+  to(order: Order, drones: readonly string[] | 'all'): void {
+    const isAll = drones === 'all' || drones.length === this.session.droneIds.value.length;
+    const who = isAll ? 'all drones' : drones.length > 3 ? `${drones.length} drones` : drones.join(', ');
+    void this.session.command({ type: order, drones: isAll ? 'all' : drones }, `${kOrderNames[order]}: ${who}`);
+  }
+
+  landAll(): void {
+    void this.session.command({ type: 'land_all' }, 'LAND ALL: every drone comes down.');
+  }
+
+  emergencyStop(drones: readonly string[] | 'all'): void {
+    const who = drones === 'all' ? 'all drones' : drones.join(', ');
+    void this.session.command({ type: 'emergency_stop', drones }, `EMERGENCY STOP: motors off, ${who}.`);
+  }
+
+  private selectedIds(): string[] {
+    const ids = this.session.droneIds.value;
+    return [...this.editor.selectedDrones.value].flatMap((drone) => ids[drone] ?? []);
+  }
+}

@@ -1,0 +1,270 @@
+import { batch, computed, signal } from '@preact/signals';
+import { ConsoleLink, type Answer, type Command, type LinkState, type World } from '../link/console_link';
+import type { AgeMap, Coverage, Density, Frame, Snapshot, Trails } from '../link/frames';
+import type { Hello, Mission, Operator, ServerMessage, Status, SwarmEvent, TargetsMessage } from '../link/messages';
+import { FieldFrame } from '../model/field_frame';
+import { draftOf, isStaged, nothingStaged, rebase, touched, type Staging } from '../model/staging';
+import { kNoTargets, type EntryName, type Targets } from '../model/targets';
+import { Series } from './series';
+
+export type NoticeKind = 'info' | 'warning' | 'alarm';
+
+/** A short message for the person at this console, read out by screen readers. */
+export interface Notice {
+  readonly number: number;
+  readonly kind: NoticeKind;
+  readonly text: string;
+}
+
+const kMostEvents = 1000;
+const kBeatMs = 200;
+
+/**
+ * What this page knows of the swarm. Fast data (frames) is held as it came, for the map to read at its own rate; slow
+ * data are signals. `beat` ticks at most five times a second: what shows fast data as text listens to that.
+ */
+export class Session {
+  readonly link: ConsoleLink;
+  readonly linkState = signal<LinkState>({ phase: 'connecting', reason: '', retryAtMs: null });
+  readonly hello = signal<Hello | null>(null);
+  readonly mission = signal<Mission | null>(null);
+  readonly targets = signal<TargetsMessage | null>(null);
+  readonly status = signal<Status | null>(null);
+  readonly operators = signal<readonly Operator[]>([]);
+  readonly events = signal<readonly SwarmEvent[]>([]);
+  readonly notices = signal<readonly Notice[]>([]);
+  readonly staging = signal<Staging>(nothingStaged(0));
+  readonly beat = signal(0);
+  readonly hasSnapshot = signal(false);
+
+  readonly field = computed<FieldFrame | null>(() => {
+    const field = this.mission.value?.display.field;
+    return field ? new FieldFrame(field.origin_m, field.yaw_rad, [field.length_x_m, field.length_y_m]) : null;
+  });
+  readonly droneIds = computed<readonly string[]>(() => this.mission.value?.mission.drones.map((d) => d.id) ?? []);
+  /** What is committed, and what it would be with the staged edits. */
+  readonly committed = computed<Targets>(() => this.targets.value ?? kNoTargets);
+  readonly draft = computed<Targets>(() => draftOf(this.committed.value, this.staging.value) ?? this.committed.value);
+  readonly isStaged = computed(() => isStaged(this.staging.value));
+  readonly isLive = computed(() => this.linkState.value.phase === 'live' && this.hasSnapshot.value);
+  readonly mayOperate = computed(() => this.isLive.value && (this.hello.value?.role ?? 'viewer') !== 'viewer');
+  readonly mayStopMotors = computed(() => this.isLive.value && this.hello.value?.role === 'safety_pilot');
+
+  snapshot: Snapshot | null = null;
+  /** When the snapshot came (World.nowMs), and how old it was then. */
+  snapshotAtMs = 0;
+  density: Density | null = null;
+  ghost: Density | null = null;
+  coverage: Coverage | null = null;
+  ageMap: AgeMap | null = null;
+  trails: Trails | null = null;
+  readonly series = new Series();
+
+  /** An `edit` of ours is on its way. */
+  isCommitting = false;
+
+  private readonly snapshotListeners = new Set<(snapshot: Snapshot) => void>();
+  private lastBeatMs = 0;
+  private nextNotice = 1;
+  private previewBusy = false;
+  private previewWanted = false;
+  private lastEvent = 0;
+  private shownEditing = '[]';
+
+  constructor(
+    readonly world: World,
+    identity: Readonly<Record<string, unknown>>,
+  ) {
+    const listener = {
+      stateChanged: (state: LinkState) => this.linkChanged(state),
+      messageCame: (message: ServerMessage) => batch(() => this.take(message)),
+      frameCame: (frame: Frame) => this.takeFrame(frame),
+      mistakeSeen: (what: string) => this.notify('warning', `The program sent something unexpected: ${what}`),
+    };
+    this.link = new ConsoleLink(world, listener, identity);
+  }
+
+  /** Calls back at every snapshot; the function returned ends that. */
+  onSnapshot(listener: (snapshot: Snapshot) => void): () => void {
+    this.snapshotListeners.add(listener);
+    return () => this.snapshotListeners.delete(listener);
+  }
+
+  /** Seconds since what is shown was true; Infinity before anything came. */
+  dataAgeS(): number {
+    if (!this.snapshot) return Infinity;
+    return this.snapshot.ageS + (this.world.nowMs() - this.snapshotAtMs) / 1000;
+  }
+
+  notify(kind: NoticeKind, text: string): void {
+    const notice = { number: this.nextNotice++, kind, text };
+    this.notices.value = [...this.notices.value.slice(-4), notice];
+    this.world.after(kind === 'info' ? 4000 : 9000, () => this.dismiss(notice.number));
+  }
+
+  dismiss(number: number): void {
+    this.notices.value = this.notices.value.filter((notice) => notice.number !== number);
+  }
+
+  /** Sends a command and says what became of it; true when it was accepted. */
+  async command(command: Command, done?: string): Promise<boolean> {
+    const answer = await this.link.command(command);
+    this.report(answer, done);
+    return answer.ok;
+  }
+
+  private report(answer: Answer, done: string | undefined): void {
+    if (!answer.ok) {
+      this.notify('warning', answer.refused.reason);
+      return;
+    }
+    const refused = answer.ack.refused_drones ?? [];
+    if (refused.length > 0)
+      this.notify(
+        'warning',
+        refused
+          .slice(0, 3)
+          .map((r) => `${r.drone}: ${r.reason}`)
+          .join('; '),
+      );
+    else if (done) this.notify('info', done);
+  }
+
+  // --- what comes from the program --------------------------------------------------------------------------------
+
+  private linkChanged(state: LinkState): void {
+    this.linkState.value = state;
+    if (state.phase !== 'live') this.beat.value++;
+  }
+
+  private take(message: ServerMessage): void {
+    switch (message.type) {
+      case 'hello':
+        this.hello.value = message;
+        this.shownEditing = '[]';
+        break;
+      case 'mission':
+        this.takeMission(message);
+        break;
+      case 'targets':
+        this.takeTargets(message);
+        break;
+      case 'events':
+        this.takeEvents(message.events);
+        break;
+      case 'status':
+        this.status.value = message;
+        break;
+      case 'presence':
+        this.operators.value = message.operators;
+        break;
+      default:
+        break;
+    }
+  }
+
+  private takeMission(mission: Mission): void {
+    const isAnother =
+      mission.epoch !== this.mission.value?.epoch || mission.mission.name !== this.mission.value.mission.name;
+    this.mission.value = mission;
+    if (!isAnother) return;
+    this.snapshot = this.density = this.ghost = this.coverage = this.ageMap = this.trails = null;
+    this.hasSnapshot.value = false;
+    this.staging.value = nothingStaged(0);
+    this.series.reset(mission.mission.drones.length);
+  }
+
+  private takeTargets(targets: TargetsMessage): void {
+    this.targets.value = targets;
+    // Our own commit: the answer, which comes next, clears what is staged.
+    if (this.isCommitting) return;
+    const { staging, lost } = rebase(targets, this.staging.value);
+    if (lost.length > 0)
+      this.notify(
+        'warning',
+        `${targets.by} changed what you were editing: dropped “${lost.map((s) => s.what).join('”, “')}”.`,
+      );
+    this.restage(staging);
+  }
+
+  private takeEvents(events: readonly SwarmEvent[]): void {
+    // After a reconnect the newest 200 come again; a program that was restarted counts from 1 anew.
+    const first = events[0]?.number ?? 0;
+    const isRestarted = events.length > 0 && events[events.length - 1]!.number < this.lastEvent;
+    const known = isRestarted ? [] : this.events.value.filter((event) => event.number < first);
+    this.events.value = [...known, ...events].slice(-kMostEvents);
+    const isHistory = this.lastEvent === 0;
+    for (const event of events) {
+      if (!isHistory && event.number > this.lastEvent && event.severity !== 'info' && event.source !== 'operator')
+        this.notify(event.severity, event.effect ? `${event.text}. ${event.effect}.` : event.text);
+    }
+    this.lastEvent = events[events.length - 1]?.number ?? this.lastEvent;
+  }
+
+  private takeFrame(frame: Frame): void {
+    if (frame.epoch !== this.mission.value?.epoch) return;
+    if (frame.kind === 'snapshot') this.takeSnapshot(frame);
+    else if (frame.kind === 'coverage') this.coverage = frame;
+    else if (frame.kind === 'age') this.ageMap = frame;
+    else if (frame.kind === 'trails') this.trails = frame;
+    else if (!frame.isPreview) this.density = frame;
+    else if (this.isStaged.value) this.ghost = frame;
+  }
+
+  private takeSnapshot(snapshot: Snapshot): void {
+    if (snapshot.n !== this.droneIds.value.length) return;
+    this.snapshot = snapshot;
+    this.snapshotAtMs = this.world.nowMs();
+    this.series.take(snapshot);
+    for (const listener of this.snapshotListeners) listener(snapshot);
+    if (this.snapshotAtMs - this.lastBeatMs < kBeatMs) return;
+    this.lastBeatMs = this.snapshotAtMs;
+    batch(() => {
+      this.hasSnapshot.value = true;
+      this.beat.value++;
+    });
+  }
+
+  // --- staged edits -----------------------------------------------------------------------------------------------
+
+  /** Puts other staged edits in place of these; the ghost and what others see follow. */
+  restage(staging: Staging): void {
+    this.staging.value = staging;
+    if (!isStaged(staging)) this.ghost = null;
+    else this.wantPreview();
+    this.tellEditing(touched(staging));
+  }
+
+  /** One preview at a time; the newest draft follows when the answer is there. */
+  private wantPreview(): void {
+    if (this.previewBusy) {
+      this.previewWanted = true;
+      return;
+    }
+    this.previewBusy = true;
+    this.previewWanted = false;
+    const edits = this.staging.value.steps.flatMap((step) => step.edits);
+    void this.link
+      .command({ type: 'preview_density', based_on: this.targets.value?.revision ?? 0, edits })
+      .then((answer) => this.previewAnswered(answer));
+  }
+
+  private previewAnswered(answer: Answer): void {
+    this.previewBusy = false;
+    if (!answer.ok && !['superseded', 'offline', 'busy'].includes(answer.refused.code)) {
+      this.ghost = null;
+      this.previewProblem.value = answer.refused.reason;
+    } else this.previewProblem.value = '';
+    if (this.previewWanted && this.isStaged.value) this.wantPreview();
+  }
+
+  /** Why the staged edits could not be committed as they are; empty where they could. */
+  readonly previewProblem = signal('');
+
+  private tellEditing(what: readonly EntryName[]): void {
+    const told = JSON.stringify(what);
+    if (told === this.shownEditing || !this.mayOperate.value) return;
+    this.shownEditing = told;
+    void this.link.command({ type: 'editing', what });
+  }
+}
