@@ -21,7 +21,8 @@ export async function openBrowser(): Promise<Browser> {
   if (!existsSync(kChromium)) throw new Error(`no browser at ${kChromium}: install chromium, or set VIGIL_CHROMIUM`);
   return chromium.launch({
     executablePath: kChromium,
-    args: [...kQuiet, '--use-angle=swiftshader', '--enable-unsafe-swiftshader', '--ignore-gpu-blocklist'],
+    // WebGL2 without a GPU.
+    args: [...kQuiet, '--enable-unsafe-swiftshader'],
   });
 }
 

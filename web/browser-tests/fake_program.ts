@@ -9,6 +9,9 @@ export class FakeProgram {
   readonly received: Record<string, unknown>[] = [];
   private socket: WebSocketRoute | null = null;
   private tick = 0;
+  /** Takes connections but says nothing. */
+  isMute = false;
+  greetings = 0;
   drones: DroneState[];
   holding: Holding[] = [];
 
@@ -36,6 +39,7 @@ export class FakeProgram {
 
   private answer(message: Record<string, unknown>): void {
     this.received.push(message);
+    if (this.isMute) return;
     if (message['type'] === 'hello') this.greet();
     else this.say({ type: 'ack', id: message['id'], tick: this.tick, pending: false, revision: 1 });
   }
@@ -44,7 +48,111 @@ export class FakeProgram {
     this.socket?.send(JSON.stringify(message));
   }
 
+  hangUp(): void {
+    void this.socket?.close();
+  }
+
+  sayStatus(more: Record<string, unknown>): void {
+    const area = (
+      kind: string,
+      name: string,
+      age_s: number,
+      deadline_s: number | null,
+      asked: number,
+      achieved: number,
+    ) => ({
+      kind,
+      name,
+      age_s,
+      worst_s: 14,
+      deadline_s,
+      is_overdue: deadline_s !== null && age_s > deadline_s,
+      asked,
+      achieved, // prettier-ignore
+    });
+    this.say({
+      type: 'status',
+      epoch: 1,
+      areas: [area('cluster', 'east', 3.2, 30, 0.31, 0.28), area('area', 'ridge', 34, 30, 0.4, 0.35)],
+      recording: null,
+      lost_events: 0,
+      clients: 1,
+      lateness_us: { p50: 60, p99: 210, p999: 400, max: 900 },
+      waits_for_resume: false,
+      ...more,
+    });
+  }
+
+  sayTargets(): void {
+    this.say({
+      ...this.emptyTargets(),
+      revision: 2,
+      clusters: [{ name: 'east', points_m: [[2.2, 1.6], [2.4, 1.8], [2.3, 1.4]], weight: 2, revisit_s: 30 }], // prettier-ignore
+      areas: [{ name: 'ridge', outline_m: [[0.4, 2.2], [1.4, 2.4], [1.2, 2.8], [0.5, 2.7]], weight: 5, soft_edge_m: 0, revisit_s: 30 }], // prettier-ignore
+      no_fly: [{ name: 'road', outline_m: [[1.3, 0.5], [1.8, 0.6], [1.7, 1.2]] }], // prettier-ignore
+    });
+  }
+
+  sayEvents(): void {
+    const event = (number: number, severity: string, what: string, text: string, effect: string, next: string) => ({
+      number,
+      tick: 10 * number,
+      time_s: 0.2 * number,
+      wall_ms: 0,
+      severity,
+      source: 'operator',
+      what,
+      drone: '',
+      was: '',
+      by: 'Ana',
+      text,
+      effect,
+      next, // prettier-ignore
+    });
+    this.say({
+      type: 'events',
+      events: [
+        event(1, 'info', 'edit', 'east: weight 2', '', ''),
+        event(
+          2,
+          'warning',
+          'landing',
+          'd3 lands',
+          '4 of 5 drones cover; its share goes to them',
+          'take off again when it is ready',
+        ),
+        event(
+          3,
+          'alarm',
+          'tracking_lost',
+          'd2 is not tracked',
+          'the others keep clear of its last place',
+          'look for it',
+        ),
+      ],
+    });
+  }
+
+  private emptyTargets(): Record<string, unknown> {
+    return {
+      type: 'targets',
+      epoch: 1,
+      revision: 1,
+      by: 'mission',
+      what: '',
+      can_undo: false,
+      can_redo: false,
+      undo_what: '',
+      redo_what: '',
+      clusters: [],
+      areas: [],
+      no_fly: [],
+      uniform_floor: 0.5, // prettier-ignore
+    };
+  }
+
   private greet(): void {
+    this.greetings++;
     const [x, y] = this.size;
     this.say({
       type: 'hello',
@@ -77,21 +185,7 @@ export class FakeProgram {
         most_speed: 20,
       },
     });
-    this.say({
-      type: 'targets',
-      epoch: 1,
-      revision: 1,
-      by: 'mission',
-      what: '',
-      can_undo: false,
-      can_redo: false,
-      undo_what: '',
-      redo_what: '',
-      clusters: [],
-      areas: [],
-      no_fly: [],
-      uniform_floor: 0.5,
-    });
+    this.say(this.emptyTargets());
     this.socket?.send(densityBytes(this.size, 96, 96, (u, v) => Math.exp(-30 * ((u - 0.3) ** 2 + (v - 0.6) ** 2))));
     this.sendSnapshot();
   }

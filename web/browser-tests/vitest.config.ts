@@ -9,5 +9,6 @@ export default defineConfig({
     testTimeout: 60_000,
     hookTimeout: 60_000,
     passWithNoTests: false,
+    expect: { poll: { timeout: 20_000, interval: 50 } },
   },
 });

@@ -33,7 +33,9 @@ void main() {
   v_selected = step(7.5, code);
   v_glyph = int(code - 8.0 * v_selected + 0.5);
   v_radius_px = u_radius * u_scale;
-  float reach = max(u_size * (1.6 + 0.5 * v_selected), v_radius_px + 2.0);
+  // Small glyphs have no outline, and no pixel is painted in vain.
+  float extent = v_selected > 0.5 ? 2.1 : u_size > 5.0 ? 1.6 : 1.2;
+  float reach = max(u_size * extent, v_radius_px + 2.0);
   v_px = corner * reach;
   float c = cos(drone.z), s = sin(drone.z);
   // The glyph turns with the heading; distances stay as they are.
@@ -52,11 +54,11 @@ uniform vec3 u_colours[3];
 uniform vec3 u_outline, u_ring;
 uniform float u_size, u_ringAlpha;
 ${kFrameFragment}
-// Signed distance to an arrow head that points along +x, in units of the glyph's size.
+// Signed distance to an arrow head with a notch, tip at (1, 0), back corners at (-0.8, 0.75), in units of the glyph's size.
 float arrow(vec2 p) {
   p.y = abs(p.y);
-  float side = dot(p - vec2(1.0, 0.0), normalize(vec2(0.62, 1.45)));
-  float notch = dot(p - vec2(-0.38, 0.0), normalize(vec2(-0.62, 0.44)));
+  float side = dot(p - vec2(1.0, 0.0), vec2(0.3846, 0.9231));
+  float notch = dot(p - vec2(-0.35, 0.0), vec2(-0.8575, -0.5145));
   return max(side, notch);
 }
 float stroke(float d, float half_width, float soft) { return 1.0 - smoothstep(half_width - soft, half_width + soft, abs(d)); }
@@ -79,8 +81,8 @@ void main() {
     over(sum, painted(tint, mark));
   } else {
     float d = arrow(v_at);
-    over(sum, painted(u_outline, filled(d - 0.26, soft)));
-    over(sum, painted(tint, v_glyph == 0 ? filled(d, soft) : stroke(d + 0.09, 0.13, soft)));
+    if (u_size > 5.0) over(sum, painted(u_outline, filled(d - 0.24, soft)));
+    over(sum, painted(tint, v_glyph == 0 ? filled(d, soft) : stroke(d + 0.06, 0.13, soft)));
   }
   if (v_selected > 0.5) over(sum, painted(u_ring, stroke(length(v_at) - 1.75, 0.1, soft)));
   colour = sum;

@@ -1,6 +1,5 @@
 import { effect, signal } from '@preact/signals';
 import type { Snapshot } from '../link/frames';
-import { gridShape, reconstruct } from '../model/basis';
 import type { Point } from '../model/geometry';
 import type { Editor } from '../session/editor';
 import type { Session } from '../session/session';
@@ -12,27 +11,25 @@ import { drawDroneNotes } from './drones_overlay';
 import type { Frame, Gl } from './gl';
 import { drawGround, drawRulers } from './ground';
 import { hitAt, type Hit } from './hit';
-import { ageScale } from './legend';
 import { kPalettes } from './palette';
 import type { Pen } from './pen';
-import { RasterLayer, type Placement, type RasterStyle } from './raster_layer';
+import {
+  ageStyle,
+  agePicture,
+  coveragePicture,
+  coverageStyle,
+  densityPicture,
+  densityStyle,
+  ghostStyle,
+} from './pictures';
+import { RasterLayer, type Placement } from './raster_layer';
 import { drawSketch } from './sketch_overlay';
 import { drawTargets } from './targets_overlay';
 import { TrailLayer } from './trail_layer';
 
 const kFitMargin = 36;
-const kCoverageCells = 96;
 /** Trails of this many crossings of the field's longer side at full speed stay on the map. */
 const kTrailCrossings = 5;
-
-const kPlain = {
-  contour: [0, 0, 0],
-  mostAlpha: 0.7,
-  gamma: 1,
-  contours: 0,
-  contourAlpha: 0,
-  striped: false,
-} as const;
 
 interface Layers {
   readonly density: RasterLayer;
@@ -55,7 +52,6 @@ export class MapView {
   /** Why there is no picture, where the browser cannot draw. */
   readonly problem = signal('');
   readonly canvas: HTMLCanvasElement;
-  framesDrawn = 0;
 
   private readonly ground: HTMLCanvasElement;
   private readonly glCanvas: HTMLCanvasElement;
@@ -230,7 +226,6 @@ export class MapView {
     this.placeDrones();
     this.drawPicture();
     this.drawNotes();
-    this.framesDrawn++;
   }
 
   private penOf(canvas: HTMLCanvasElement): Pen {
@@ -293,21 +288,12 @@ export class MapView {
     const palette = kPalettes[this.settings.theme.value];
     const on = this.settings.layers.value;
     const placement = this.placement();
-    const style = (tint: RasterStyle['tint'], more: Partial<RasterStyle> = {}): RasterStyle => ({
-      ...kPlain,
-      tint,
-      ...more,
-    });
-    if (on.has('age')) layers.age.draw(frame, placement, style(palette.age));
-    const inTime = { contour: palette.coverage, contours: 6, contourAlpha: 0.6, gamma: 0.8 };
-    if (on.has('coverage')) layers.coverage.draw(frame, placement, style(palette.coverage, inTime));
+    if (on.has('age')) layers.age.draw(frame, placement, ageStyle(palette));
+    if (on.has('coverage')) layers.coverage.draw(frame, placement, coverageStyle(palette));
     if (!on.has('density')) return;
-    const contours = { contour: palette.densityContour, contours: 7, contourAlpha: 0.8, gamma: 0.7 };
     const isGhosted = this.session.ghost !== null;
-    const committed = isGhosted ? { mostAlpha: 0.25, gamma: 0.7 } : { mostAlpha: 0.85, ...contours };
-    layers.density.draw(frame, placement, style(palette.density, committed));
-    if (isGhosted)
-      layers.ghost.draw(frame, placement, style(palette.density, { mostAlpha: 0.85, ...contours, striped: true }));
+    layers.density.draw(frame, placement, densityStyle(palette, isGhosted));
+    if (isGhosted) layers.ghost.draw(frame, placement, ghostStyle(palette));
   }
 
   private drawMovers(layers: Layers, frame: Frame): void {
@@ -359,9 +345,7 @@ export class MapView {
       const data = session[key];
       if (shown[key] === data) continue;
       shown[key] = data;
-      layers[key].set(
-        data && !data.isEmpty ? { ...data, values: Float32Array.from(data.cells, (cell) => cell / 65535) } : null,
-      );
+      layers[key].set(densityPicture(data));
       this.isDirty = this.isGroundDirty = true;
     }
     const on = this.settings.layers.value;
@@ -414,35 +398,18 @@ export class MapView {
     const { coverage, density } = this.session;
     this.shown.coverage = coverage;
     this.isDirty = this.isGroundDirty = true;
-    if (!coverage?.hasSamples) {
-      layers.coverage.set(null);
-      return;
-    }
-    const size = [coverage.lengthX, coverage.lengthY] as const;
-    const grid = reconstruct(coverage.coefficients, size, ...gridShape(size, kCoverageCells));
-    // On the importance's own scale, so that the two maps can be held against each other.
-    const peak = Math.max(
-      density && !density.isEmpty ? density.peak : 0,
-      grid.values.reduce((a, b) => Math.max(a, b), 0),
-    );
-    const values = grid.values.map((value) => Math.max(0, value / (peak || 1)));
-    layers.coverage.set({ ...grid, values });
+    layers.coverage.set(coveragePicture(coverage, density));
   }
 
   private uploadAge(layers: Layers): void {
-    const age = this.session.ageMap;
-    this.shown.age = age;
+    const { ageMap, committed } = this.session;
+    this.shown.age = ageMap;
     this.isDirty = this.isGroundDirty = true;
-    if (!age) {
-      layers.age.set(null);
-      return;
-    }
-    const oldest = age.cells.reduce((most, cell) => (cell < 65534 && cell > most ? cell : most), 0) / 10;
-    const deadlines = [...this.session.committed.value.clusters, ...this.session.committed.value.areas];
-    const longest = deadlines.reduce((most, entry) => Math.max(most, entry.revisit_s ?? 0), 0);
-    const scale = ageScale(oldest, longest || null);
-    this.ageScaleS.value = scale;
-    layers.age.set({ ...age, values: Float32Array.from(age.cells, (cell) => Math.min(1, cell / 10 / scale)) });
+    const watched = [...committed.value.clusters, ...committed.value.areas];
+    const longest = watched.reduce((most, entry) => Math.max(most, entry.revisit_s ?? 0), 0);
+    const picture = ageMap && agePicture(ageMap, longest || null);
+    if (picture) this.ageScaleS.value = picture.scaleS;
+    layers.age.set(picture);
   }
 
   private drawNotes(): void {

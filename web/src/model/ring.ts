@@ -25,6 +25,11 @@ export class Ring {
     return this.filled === 0 ? null : this.times[(this.next + this.capacity - 1) % this.capacity]!;
   }
 
+  /** The newest value of a series; NaN where there is none. */
+  newest(series: number): number {
+    return this.filled === 0 ? NaN : this.rows[series]![(this.next + this.capacity - 1) % this.capacity]!;
+  }
+
   /** `values` has one number per series; NaN leaves a gap. Precondition: values.length === seriesCount. */
   push(time: number, values: ArrayLike<number>): void {
     const newest = this.newestTime;

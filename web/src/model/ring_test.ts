@@ -17,6 +17,7 @@ describe('ring', () => {
     ring.push(2, [2, 5]);
     expect(ring.columns(1.5)).toEqual([[2], [2], [5]]);
     expect(ring.columns(0)[2]).toEqual([null, 5]);
+    expect(ring.newest(0)).toBe(2);
   });
 
   it('A sample that is not newer is left out; a clock that starts anew empties the ring', () => {

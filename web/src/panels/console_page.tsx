@@ -16,7 +16,6 @@ export function ConsolePage() {
   const isStale = session.hasSnapshot.value && !session.isLive.value;
   return (
     <>
-      <h1 class="unseen">vigil, operator’s console</h1>
       <div class={`console ${isStale ? 'is-stale' : ''}`} data-phase={session.linkState.value.phase}>
         <TopBar />
         <nav class="left" aria-label="Tools and areas">

@@ -4,7 +4,10 @@ import { useEffect, useRef, useState } from 'preact/hooks';
 const kHoldMs = 1000;
 
 interface Props {
-  readonly label: string;
+  /** Where what is written on it does not say enough. */
+  readonly label?: string;
+  /** Drawn as about to act. */
+  readonly isArmed?: boolean;
   readonly disabled: boolean;
   readonly title: string;
   readonly onConfirmed: () => void;
@@ -12,7 +15,7 @@ interface Props {
 }
 
 /** A button that acts only when it is held for a second, with pointer, Space or Enter. */
-export function HoldButton({ label, disabled, title, onConfirmed, children }: Props) {
+export function HoldButton({ label, isArmed, disabled, title, onConfirmed, children }: Props) {
   const [isHeld, setHeld] = useState(false);
   const timer = useRef(0);
   const release = (): void => {
@@ -33,7 +36,7 @@ export function HoldButton({ label, disabled, title, onConfirmed, children }: Pr
   return (
     <button
       type="button"
-      class={`stop ${isHeld ? 'is-held' : ''}`}
+      class={`stop ${isHeld ? 'is-held' : ''} ${isArmed ? 'is-armed' : ''}`}
       disabled={disabled}
       aria-label={label}
       title={title}

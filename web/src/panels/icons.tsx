@@ -33,7 +33,8 @@ const kPaths = {
   land: 'M10 3v11M5.5 10L10 14.5 14.5 10M4 17.5h12',
   resume: 'M4 10a6 6 0 1 1 2 4.5M4 15v-4h4',
   giveBack: 'M3 10h11M10 6l4 4-4 4M17 4v12',
-  cluster: 'M6 6h.1M13 5h.1M9 10h.1M5 14h.1M14 12h.1M10 15h.1',
+  cluster:
+    'M6 5a1 1 0 1 0 .01 0zM13 4a1 1 0 1 0 .01 0zM9.5 9a1 1 0 1 0 .01 0zM5 13a1 1 0 1 0 .01 0zM14.5 11.5a1 1 0 1 0 .01 0zM10.5 15a1 1 0 1 0 .01 0z',
   edit: 'M4 16l1-4 8-8 3 3-8 8zM11.5 5.5l3 3',
 } as const;
 

@@ -102,7 +102,7 @@ export function Inspector() {
             <HeldBy drone={drone} />
           </dd>
         </dl>
-        <div class="velocity">
+        <div class="speeds">
           <Gauge drone={drone} kind="nominal" name="wanted" />
           <Gauge drone={drone} kind="command" name="allowed" />
           <Gauge drone={drone} kind="velocity" name="flown" />
@@ -149,7 +149,6 @@ function StopOne({ id }: { id: string }) {
   const { session, orders } = useApp();
   return (
     <HoldButton
-      label={`Stop the motors of ${id}: hold for one second`}
       title={`Motors off, only ${id}: hold for one second`}
       disabled={!session.mayStopMotors.value}
       onConfirmed={() => orders.emergencyStop([id])}

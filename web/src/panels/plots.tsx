@@ -1,6 +1,5 @@
 import { useComputed } from '@preact/signals';
 import type uPlot from 'uplot';
-import { speedOf } from '../model/drones';
 import { duration, metres, metresPerSecond } from '../model/units';
 import { kMostPlotted, Series } from '../session/series';
 import { useApp } from './app_context';
@@ -29,9 +28,7 @@ export function Plots() {
     const all = series.swarm.columns(since);
     return [all[0], all[column]] as unknown as uPlot.AlignedData;
   };
-  const fastest = snapshot
-    ? Math.max(0, ...Array.from({ length: Math.min(snapshot.n, 20_000) }, (_, i) => speedOf(snapshot, i, 'command')))
-    : NaN;
+  const fastest = series.swarm.newest(4);
   return (
     <div class="plots">
       <Plot

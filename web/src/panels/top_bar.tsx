@@ -11,6 +11,7 @@ export function TopBar() {
   const { session, orders, isHelpOpen, isLogOpen, settings, isStopArmed } = useApp();
   return (
     <header class="top">
+      <h1 class="unseen">vigil, operator’s console</h1>
       <WhatFlies />
       <DataAge />
       <MissionClock />
@@ -51,9 +52,10 @@ export function TopBar() {
           label="Emergency stop of all drones: hold for one second"
           title="Motors off, all drones: hold for one second, or press . twice"
           disabled={!session.mayStopMotors.value}
+          isArmed={isStopArmed.value}
           onConfirmed={() => orders.emergencyStop('all')}
         >
-          <span>{isStopArmed.value ? 'ONCE MORE: .' : 'EMERGENCY STOP'}</span>
+          <span>EMERGENCY STOP</span>
         </HoldButton>
       </div>
     </header>
