@@ -35,6 +35,7 @@ sim::VehicleParameters vehicle_parameters(const runtime::Mission& mission) {
   sim::VehicleParameters parameters;
   parameters.motion = motion_model(mission);
   parameters.failsafe = dynamics::failsafe_of(vehicle.model);
+  parameters.position_hold_per_s = dynamics::position_hold_gain(vehicle.model);
   if (mission.simulation.battery) parameters.battery = battery_parameters(*mission.simulation.battery, vehicle.model);
   parameters.command_delay_s = vehicle.command_delay_s;
   parameters.altitude_m = vehicle.altitude_m;

@@ -62,6 +62,16 @@ bool may_wander(Activity activity) {
          activity == Activity::kVehicleFailed || activity == Activity::kLinkLost;
 }
 
+/// How fast it may come closer by itself. A pilot may do anything; what has failed or is not heard drifts, and is seen
+/// to: it is given a little more than it has. To assume the most of it would make everybody flee from a drone that
+/// hovers, into a wall if need be.
+double wandering_speed(const DroneMemory& drone, double u_max) {
+  constexpr double kChange = 0.1;  // of u_max
+  if (!may_wander(drone.activity)) return 0.0;
+  if (drone.activity == Activity::kOverridden) return u_max;
+  return std::min(u_max, drone.last_good.velocity.norm() + kChange * u_max);
+}
+
 /// Whether it is about to leave the ground.
 bool wants_up(const DroneMemory& drone) { return drone.intent == Intent::kTakeOff; }
 
@@ -287,7 +297,7 @@ safety::Body SwarmState::body_of(std::size_t index) const noexcept {
   // Others clear the air above a drone that is to take off.
   const bool takes_room = is_airborne(drone, parameters_.health) || wants_up(drone);
   body.is_obstacle = parameters_.only_active_are_obstacles ? drone.activity == Activity::kActive : takes_room;
-  body.uncooperative_speed_m_s = may_wander(drone.activity) ? parameters_.barrier.u_max_m_s : 0.0;
+  body.uncooperative_speed_m_s = wandering_speed(drone, parameters_.barrier.u_max_m_s);
   return body;
 }
 

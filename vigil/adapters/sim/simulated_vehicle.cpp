@@ -16,7 +16,7 @@ double response_delay_s(const MotionModel& motion) noexcept {
 
 SimulatedVehicle::SimulatedVehicle(const VehicleParameters& parameters, const Vec2& position, bool starts_flying,
                                    std::size_t dead_ticks)
-    : parameters_(parameters), motion_(parameters.motion, dead_ticks) {
+    : parameters_(parameters), motion_(parameters.motion, dead_ticks), hold_(parameters.position_hold_per_s) {
   motion_.rest_at(position);
   if (parameters.battery) battery_.emplace(*parameters.battery);
   truth_.position = position;
@@ -68,8 +68,18 @@ void SimulatedVehicle::climb_or_descend(double dt_s) noexcept {
   }
 }
 
+/// Its own autopilot has it, and nobody's velocity.
+bool SimulatedVehicle::stays_by_itself() const noexcept {
+  const VehicleMode mode = truth_.mode;
+  const bool is_on_its_own =
+      mode == VehicleMode::kTakingOff || mode == VehicleMode::kLanding || mode == VehicleMode::kFailed;
+  return is_on_its_own || (mode == VehicleMode::kFlying && failsafe_.phase == FailsafePhase::kHovering);
+}
+
 void SimulatedVehicle::move(double dt_s, const Vec2& push) noexcept {
-  motion_.advance(command_, dt_s, push);
+  if (!stays_by_itself()) hold_.release();
+  const Vec2 command = stays_by_itself() ? hold_.command(truth_.position, truth_.velocity) : command_;
+  motion_.advance(command, dt_s, push);
   truth_.position = motion_.position();
   truth_.velocity = motion_.velocity();
 }

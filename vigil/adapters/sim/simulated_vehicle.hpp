@@ -3,6 +3,7 @@
 #include <optional>
 
 #include "vigil/adapters/sim/planar_motion.hpp"
+#include "vigil/adapters/sim/position_hold.hpp"
 #include "vigil/adapters/sim/simulated_battery.hpp"
 #include "vigil/core/dynamics/failsafe.hpp"
 #include "vigil/runtime/fleet.hpp"
@@ -14,6 +15,7 @@ struct VehicleParameters {
   MotionModel motion;
   dynamics::Failsafe failsafe;               ///< by default it follows the last velocity for ever
   std::optional<BatteryParameters> battery;  ///< none: it is never empty, and says nothing of it
+  double position_hold_per_s = 0.0;          ///< see PositionHold; 0: none
   double command_delay_s = 0.0;              ///< beside a loop's own dead time
   double altitude_m = 1.0;
   double take_off_s = 2.0;   ///< from the ground to the altitude
@@ -35,7 +37,7 @@ struct VehicleParameters {
 /// Flying without orders it acts by its failsafe: it follows its last velocity, then hovers. What comes after: Landing,
 /// Falling where the failsafe cuts the motors, Failed where it latches hovering. Climbing and descending take the times
 /// above whatever the model: up and down, and the stop of a vehicle that fails or falls, are its motion under zero
-/// velocity.
+/// velocity, and, with a position hold, staying where that has led.
 class SimulatedVehicle {
  public:
   /// `dead_ticks`: response_delay_s() in steps.
@@ -59,6 +61,7 @@ class SimulatedVehicle {
  private:
   void climb(double rate_m_s, double dt_s) noexcept;
   void climb_or_descend(double dt_s) noexcept;
+  [[nodiscard]] bool stays_by_itself() const noexcept;
   void move(double dt_s, const Vec2& push) noexcept;
   void arrive() noexcept;
   void watch_battery(double dt_s) noexcept;
@@ -71,6 +74,7 @@ class SimulatedVehicle {
   PlanarMotion motion_;
   dynamics::FailsafeState failsafe_;
   std::optional<SimulatedBattery> battery_;
+  PositionHold hold_;
   Vec2 command_ = Vec2::Zero();  ///< the velocity that it follows
 };
 

@@ -63,6 +63,30 @@ TEST(SimulatedVehicle, A_failed_one_stops_as_its_model_does_and_ignores_velociti
   }
 }
 
+/// How far gusts, here a slow push to and fro, carry a vehicle that has failed.
+double greatest_drift(const VehicleParameters& parameters) {
+  SimulatedVehicle vehicle = flying(parameters);
+  vehicle.fail();
+  wait(vehicle, 20.0);
+  const Vec2 rest = vehicle.truth().position;
+  double farthest = 0.0;
+  for (int i = 0; i < 6000; ++i) {
+    vehicle.advance(kDt, Vec2(0.0, 0.3 * std::sin(0.2 * kDt * i)));
+    farthest = std::max(farthest, (vehicle.truth().position - rest).norm());
+  }
+  return farthest;
+}
+
+TEST(SimulatedVehicle, A_position_hold_keeps_it_in_its_place_in_gusts) {
+  for (const dynamics::VehicleModel& model : {dynamics::arducopter_vehicle(), dynamics::px4_vehicle()}) {
+    VehicleParameters parameters = parameters_of(model);
+    const double drifting = greatest_drift(parameters);
+    parameters.position_hold_per_s = dynamics::position_hold_gain(model.kind);
+    EXPECT_LT(greatest_drift(parameters), 0.3) << name_of(model.kind);
+    EXPECT_GT(drifting, 0.6) << name_of(model.kind);
+  }
+}
+
 TEST(SimulatedVehicle, A_crazyflie_without_orders_flies_on_hovers_then_falls) {
   SimulatedVehicle vehicle = flying(parameters_of(dynamics::crazyflie_vehicle()));
   wait(vehicle, 0.46);

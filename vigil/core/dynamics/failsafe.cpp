@@ -17,6 +17,17 @@ Failsafe failsafe_of(VehicleKind kind) noexcept {
   return {};
 }
 
+double position_hold_gain(VehicleKind kind) noexcept {
+  switch (kind) {
+    case VehicleKind::kPx4:
+      return 0.95;
+    case VehicleKind::kArduCopter:
+      return 1.0;
+    default:
+      return 0.0;
+  }
+}
+
 FailsafeState advance(const Failsafe& failsafe, const FailsafeState& state, double dt_s) noexcept {
   FailsafeState after{state.phase, state.silence_s + dt_s};
   if (after.phase == FailsafePhase::kFollowing && after.silence_s >= failsafe.hover_after_s)

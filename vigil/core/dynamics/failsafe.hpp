@@ -36,6 +36,11 @@ struct Failsafe {
 /// back; what it does then depends on its settings, and is taken to be hovering. The other kinds follow for ever.
 [[nodiscard]] Failsafe failsafe_of(VehicleKind kind) noexcept;
 
+/// With what velocity an autopilot that takes off, lands, or hovers by itself returns to where it came to rest, per
+/// metre: the default of its position controller (PX4's MPC_XY_P 0.95, ArduCopter's PSC_POSXY_P 1). 0 for the others,
+/// which only brake: a Crazyflie's failsafe levels it. 1/s.
+[[nodiscard]] double position_hold_gain(VehicleKind kind) noexcept;
+
 struct FailsafeState {
   FailsafePhase phase = FailsafePhase::kFollowing;
   double silence_s = 0.0;
