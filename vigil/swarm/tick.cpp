@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cassert>
+#include <cmath>
 
 #include "vigil/core/ergodic/gradient_controller.hpp"
 #include "vigil/core/safety/barrier.hpp"
@@ -104,6 +105,21 @@ SwarmState::SwarmState(const SwarmParameters& parameters)
   active_u_.reserve(parameters.drones);
   travellers_.reserve(parameters.drones);
   travel_u_.reserve(parameters.drones);
+}
+
+void SwarmState::write_past(SwarmPast& out) const {
+  out.ticks = ticks_;
+  out.first_metric = first_metric_;
+  out.has_first_metric = has_first_metric_;
+  statistics_.write(out.coverage);
+}
+
+bool SwarmState::read_past(const SwarmPast& past) {
+  if (!std::isfinite(past.first_metric) || !statistics_.read(past.coverage)) return false;
+  ticks_ = past.ticks;
+  first_metric_ = past.first_metric;
+  has_first_metric_ = past.has_first_metric;
+  return true;
 }
 
 void SwarmState::set_target(const CoverageTarget& target) noexcept {

@@ -17,6 +17,14 @@
 
 namespace vigil::swarm {
 
+/// What a swarm knows of its past, apart from its drones: what a restarted program goes on from.
+struct SwarmPast {
+  std::uint64_t ticks = 0;
+  double first_metric = 0.0;
+  bool has_first_metric = false;
+  ergodic::CoverageRecord coverage;
+};
+
 /// The whole controller between two ticks, as one value: copy it and run the copy ahead to look into the future.
 class SwarmState {
  public:
@@ -29,6 +37,11 @@ class SwarmState {
   [[nodiscard]] const ergodic::CoverageStatistics& statistics() const { return statistics_; }
   /// How many ticks have been run.
   [[nodiscard]] std::uint64_t ticks() const { return ticks_; }
+
+  /// Allocates nothing where `out` has been written before.
+  void write_past(SwarmPast& out) const;
+  /// Before the first tick: goes on from what was written. False, and nothing changed, where it does not fit.
+  [[nodiscard]] bool read_past(const SwarmPast& past);
 
  private:
   friend void tick(SwarmState& state, std::span<const DroneObservation> observations, std::span<const Command> commands,

@@ -80,6 +80,26 @@ void CoverageStatistics::reset() noexcept {
   has_samples_ = false;
 }
 
+void CoverageStatistics::write(CoverageRecord& out) const {
+  out.sum = sum_;
+  out.time_s = time_s_;
+  out.past_averages = past_averages_;
+  out.has_samples = has_samples_;
+}
+
+bool CoverageStatistics::read(const CoverageRecord& record) {
+  const auto fits = [this](const Coefficients& numbers) {
+    return numbers.rows() == sum_.rows() && numbers.cols() == sum_.cols() && numbers.allFinite();
+  };
+  if (!fits(record.sum) || !fits(record.past_averages) || !std::isfinite(record.time_s) || record.time_s < 0.0)
+    return false;
+  sum_ = record.sum;
+  time_s_ = record.time_s;
+  past_averages_ = record.past_averages;
+  has_samples_ = record.has_samples;
+  return true;
+}
+
 // A phase without samples has no average and adds nothing.
 void CoverageStatistics::end_phase() noexcept {
   if (time_s_ > 0.0) past_averages_ += sum_ / time_s_;

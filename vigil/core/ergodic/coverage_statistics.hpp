@@ -16,6 +16,14 @@ enum class Accounting {
   kPaperEq14     ///< (14) as printed: the averages of all phases are added up; total mass grows by 1 with each phase
 };
 
+/// All that coverage statistics remember, for keeping and taking up again.
+struct CoverageRecord {
+  Coefficients sum;            ///< S_k, see below
+  double time_s = 0.0;         ///< T
+  Coefficients past_averages;  ///< of finished phases
+  bool has_samples = false;
+};
+
 /// Where the swarm has spent its time, as Fourier coefficients: (K+1)^2 numbers and a few scalars, however long the
 /// mission. A value: copying it copies all of it. No member but the constructor allocates. One thread at a time.
 class CoverageStatistics {
@@ -48,6 +56,11 @@ class CoverageStatistics {
   [[nodiscard]] bool has_samples() const noexcept { return has_samples_; }
   /// Forgets everything: "start coverage afresh".
   void reset() noexcept;
+
+  /// Copies what is remembered. Allocates nothing where `out` has been written before.
+  void write(CoverageRecord& out) const;
+  /// Goes on from what was written. False, and nothing changed, where it has another shape or is not finite.
+  [[nodiscard]] bool read(const CoverageRecord& record);
 
  private:
   void end_phase() noexcept;
