@@ -14,6 +14,13 @@ swarm::HealthParameters health_parameters(const HealthSection& health) {
           .landed_height_m = health.landed_height_m};
 }
 
+/// A vehicle that never flies faster than it is ordered to: none of the recorded autopilots, and nobody in gusts.
+bool follows_exactly(const SimulationSection& simulation) {
+  const bool is_simple = simulation.vehicle.model == dynamics::VehicleKind::kIdeal ||
+                         simulation.vehicle.model == dynamics::VehicleKind::kFirstOrderLag;
+  return is_simple && simulation.wind.gust_m_s == 0.0 && simulation.wind.mean_m_s.isZero();
+}
+
 }  // namespace
 
 swarm::SwarmParameters swarm_parameters(const Mission& mission, swarm::Intent first_intent) {
@@ -35,6 +42,22 @@ swarm::SwarmParameters swarm_parameters(const Mission& mission, swarm::Intent fi
   parameters.health = health_parameters(mission.health);
   parameters.first_intent = first_intent;
   return parameters;
+}
+
+swarm::Intent first_intent(const Mission& mission) {
+  return mission.simulation.start == StartState::kFlying ? swarm::Intent::kCover : swarm::Intent::kStayDown;
+}
+
+AuditLimits audit_limits(const Mission& mission) {
+  const safety::BarrierParameters barrier = barrier_parameters(mission);
+  return {.field = monitored_field(mission),
+          .no_fly = importance(mission).no_fly,
+          .separation_m = barrier.separation_m,
+          .wall_distance_m = barrier.wall_distance_m,
+          .no_fly_buffer_m = barrier.no_fly_buffer_m,
+          .speed_limit_m_s = barrier.u_max_m_s,
+          .follows_exactly = follows_exactly(mission.simulation),
+          .landed_height_m = mission.health.landed_height_m};
 }
 
 std::shared_ptr<const swarm::CoverageTarget> coverage_target(const Mission& mission, const ergodic::Basis& basis) {

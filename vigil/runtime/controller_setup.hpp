@@ -3,6 +3,7 @@
 #include <memory>
 
 #include "vigil/core/ergodic/basis.hpp"
+#include "vigil/runtime/flight_audit.hpp"
 #include "vigil/runtime/mission.hpp"
 #include "vigil/swarm/command.hpp"
 #include "vigil/swarm/parameters.hpp"
@@ -12,6 +13,12 @@ namespace vigil::runtime {
 /// The controller's parameters for a mission. `first_intent`: what every drone is to do before anyone commands
 /// anything.
 [[nodiscard]] swarm::SwarmParameters swarm_parameters(const Mission& mission, swarm::Intent first_intent);
+
+/// What every drone of the simulated world is to do before anyone commands anything.
+[[nodiscard]] swarm::Intent first_intent(const Mission& mission);
+
+/// What counts as a violation.
+[[nodiscard]] AuditLimits audit_limits(const Mission& mission);
 
 /// Where the mission says to look, as coefficients of `basis`, with the no-fly edges. Some milliseconds; never in a
 /// tick.

@@ -13,6 +13,10 @@ namespace vigil::runtime {
 /// Time since the mission began.
 using MissionTime = std::chrono::nanoseconds;
 
+[[nodiscard]] inline MissionTime mission_time(double time_s) {
+  return std::chrono::round<MissionTime>(std::chrono::duration<double>(time_s));
+}
+
 /// The one port to vehicles. Field frame on this side; an adapter converts. Called from the control thread only, once
 /// each per tick, observe() first; neither may block, throw or wait for a vehicle.
 class Fleet {

@@ -40,11 +40,6 @@ std::optional<CommandKind> command_of(EventKind kind) {
   }
 }
 
-bool edits_targets(EventKind kind) {
-  return kind == EventKind::kAddTarget || kind == EventKind::kMoveTarget || kind == EventKind::kRemoveTarget ||
-         kind == EventKind::kSetWeight;
-}
-
 template <typename Entries>
 auto find_named(Entries& entries, const std::string& name) {
   return std::find_if(entries.begin(), entries.end(), [&](const auto& entry) { return entry.name == name; });
@@ -63,6 +58,31 @@ void set_weight(TargetsSection& targets, const EventEntry& event) {
     cluster->weight = event.weight;
   else if (const auto area = find_named(targets.areas, event.cluster); area != targets.areas.end())
     area->weight = event.weight;
+}
+
+std::string describe_edit(const EventEntry& event) {
+  switch (event.what) {
+    case EventKind::kAddTarget:
+      return fmt::format("{}: new target at ({}, {}) m", event.cluster, event.point_m.x(), event.point_m.y());
+    case EventKind::kMoveTarget:
+      return fmt::format("{}: target {} to ({}, {}) m", event.cluster, event.target, event.point_m.x(),
+                         event.point_m.y());
+    case EventKind::kRemoveTarget:
+      return fmt::format("{}: target {} removed", event.cluster, event.target);
+    default:
+      return fmt::format("{}: weight {}", event.cluster, event.weight);
+  }
+}
+
+}  // namespace
+
+bool edits_targets(EventKind kind) {
+  return kind == EventKind::kAddTarget || kind == EventKind::kMoveTarget || kind == EventKind::kRemoveTarget ||
+         kind == EventKind::kSetWeight;
+}
+
+bool is_of_the_world(EventKind kind) {
+  return kind == EventKind::kFail || kind == EventKind::kLoseTracking || kind == EventKind::kLoseLink;
 }
 
 void apply_edit(TargetsSection& targets, const EventEntry& event) {
@@ -85,23 +105,7 @@ void apply_edit(TargetsSection& targets, const EventEntry& event) {
   if (cluster.points_m.empty()) targets.clusters.erase(find_named(targets.clusters, event.cluster));
 }
 
-std::string describe_edit(const EventEntry& event) {
-  switch (event.what) {
-    case EventKind::kAddTarget:
-      return fmt::format("{}: new target at ({}, {}) m", event.cluster, event.point_m.x(), event.point_m.y());
-    case EventKind::kMoveTarget:
-      return fmt::format("{}: target {} to ({}, {}) m", event.cluster, event.target, event.point_m.x(),
-                         event.point_m.y());
-    case EventKind::kRemoveTarget:
-      return fmt::format("{}: target {} removed", event.cluster, event.target);
-    default:
-      return fmt::format("{}: weight {}", event.cluster, event.weight);
-  }
-}
-
-}  // namespace
-
-FlightScript::FlightScript(Mission& mission, VirtualFleet& fleet) : mission_(mission), fleet_(fleet) {}
+FlightScript::FlightScript(const Mission& mission, VirtualFleet& fleet) : mission_(mission), fleet_(fleet) {}
 
 DueEvents FlightScript::play(double time_s) {
   // Times of ticks are products of rounded numbers; an event at 23 s belongs to the tick at 22.999999999999996 s.
@@ -110,9 +114,8 @@ DueEvents FlightScript::play(double time_s) {
   const std::vector<EventEntry>& events = mission_.simulation.events;
   for (; next_ < events.size() && events[next_].at_s <= time_s + kRounding; ++next_) {
     const EventEntry& event = events[next_];
-    const bool is_world =
-        event.what == EventKind::kFail || event.what == EventKind::kLoseTracking || event.what == EventKind::kLoseLink;
-    due.log.push_back({time_s, is_world ? "world" : "mission", std::string(name_of(event.what)), event.drone, {}});
+    due.log.push_back(
+        {time_s, is_of_the_world(event.what) ? "world" : "mission", std::string(name_of(event.what)), event.drone, {}});
     play_event(event, due);
   }
   return due;
@@ -120,7 +123,8 @@ DueEvents FlightScript::play(double time_s) {
 
 void FlightScript::play_event(const EventEntry& event, DueEvents& due) {
   if (edits_targets(event.what)) {
-    edit_targets(event, due);
+    due.target_edits.push_back(event);
+    due.log.back().detail = describe_edit(event);
   } else if (event.what == EventKind::kStartAfresh) {
     due.commands.push_back({.kind = CommandKind::kStartAfresh, .drone = {}, .target = {}});
   } else {
@@ -158,10 +162,9 @@ void FlightScript::play_for_drones(const EventEntry& event, DueEvents& due) {
   }
 }
 
-void FlightScript::edit_targets(const EventEntry& event, DueEvents& due) {
-  apply_edit(mission_.targets, event);
-  due.targets_changed = true;
-  due.log.back().detail = describe_edit(event);
+void FlightScript::skip_to(double time_s) noexcept {
+  const std::vector<EventEntry>& events = mission_.simulation.events;
+  while (next_ < events.size() && events[next_].at_s < time_s) ++next_;
 }
 
 }  // namespace vigil::runtime

@@ -54,7 +54,9 @@ class FlightScriptTest : public ::testing::Test {
   DueEvents play(std::vector<EventEntry> events, double until_s = 100.0) {
     mission.simulation.events = std::move(events);
     FlightScript script(mission, fleet);
-    return script.play(until_s);
+    DueEvents due = script.play(until_s);
+    for (const EventEntry& change : due.target_edits) apply_edit(mission.targets, change);
+    return due;
   }
 
   Mission mission;
@@ -70,6 +72,14 @@ TEST_F(FlightScriptTest, An_event_is_due_at_its_tick_once_and_not_before) {
   EXPECT_EQ(due.commands[0].kind, CommandKind::kLand);
   EXPECT_EQ(due.commands[0].drone->index(), 1U);
   EXPECT_TRUE(script.play(23.02).commands.empty());
+}
+
+TEST_F(FlightScriptTest, What_was_due_before_a_restart_is_passed_over) {
+  mission.simulation.events = {event(1.0, EventKind::kHold, "cf1"), event(23.0, EventKind::kLand, "cf2")};
+  FlightScript script(mission, fleet);
+  script.skip_to(10.0);
+  EXPECT_TRUE(script.play(22.0).commands.empty());
+  EXPECT_EQ(script.play(23.0).commands.size(), 1U);
 }
 
 TEST_F(FlightScriptTest, All_means_every_drone) {
@@ -104,7 +114,7 @@ TEST_F(FlightScriptTest, Targets_are_added_moved_and_removed) {
   const DueEvents due =
       play({edit(1.0, EventKind::kAddTarget, "new", 0, {2.0, 2.0}),
             edit(2.0, EventKind::kMoveTarget, "a", 2, {0.5, 0.5}), edit(3.0, EventKind::kRemoveTarget, "a", 1)});
-  EXPECT_TRUE(due.targets_changed);
+  EXPECT_EQ(due.target_edits.size(), 3U);
   ASSERT_EQ(mission.targets.clusters.size(), 2U);
   EXPECT_EQ(mission.targets.clusters[0].points_m, std::vector<Vec2>{Vec2(0.5, 0.5)});
   EXPECT_EQ(mission.targets.clusters[1].name, "new");

@@ -8,37 +8,6 @@
 #include "vigil/swarm/names.hpp"
 
 namespace vigil::runtime {
-namespace {
-
-swarm::Intent first_intent(const Mission& mission) {
-  return mission.simulation.start == StartState::kFlying ? swarm::Intent::kCover : swarm::Intent::kStayDown;
-}
-
-/// A vehicle that never flies faster than it is ordered to: none of the recorded autopilots, and nobody in gusts.
-bool follows_exactly(const SimulationSection& simulation) {
-  const bool is_simple = simulation.vehicle.model == dynamics::VehicleKind::kIdeal ||
-                         simulation.vehicle.model == dynamics::VehicleKind::kFirstOrderLag;
-  return is_simple && simulation.wind.gust_m_s == 0.0 && simulation.wind.mean_m_s.isZero();
-}
-
-AuditLimits audit_limits(const Mission& mission) {
-  const safety::BarrierParameters barrier = barrier_parameters(mission);
-  return {.field = monitored_field(mission),
-          .no_fly = importance(mission).no_fly,
-          .separation_m = barrier.separation_m,
-          .wall_distance_m = barrier.wall_distance_m,
-          .no_fly_buffer_m = barrier.no_fly_buffer_m,
-          .speed_limit_m_s = barrier.u_max_m_s,
-          .follows_exactly = follows_exactly(mission.simulation),
-          .landed_height_m = mission.health.landed_height_m};
-}
-
-MissionTime mission_time(double time_s) {
-  return std::chrono::round<MissionTime>(std::chrono::duration<double>(time_s));
-}
-
-}  // namespace
-
 VirtualFlight::VirtualFlight(Mission mission, VirtualFleet& fleet, Recorder* recorder, Stopwatch stopwatch)
     : mission_(std::move(mission)),
       fleet_(fleet),
@@ -115,7 +84,8 @@ void VirtualFlight::step() {
   const double dt_s = state_.parameters().dt_s;
   const double time_s = static_cast<double>(state_.ticks()) * dt_s;
   DueEvents due = script_.play(time_s);
-  if (due.targets_changed || has_targets_to_set_) retarget(time_s, due.commands);
+  for (const EventEntry& edit : due.target_edits) apply_edit(mission_.targets, edit);
+  if (!due.target_edits.empty() || has_targets_to_set_) retarget(time_s, due.commands);
   has_targets_to_set_ = false;
   if (recorder_ != nullptr)
     for (const LoggedEvent& event : due.log) recorder_->log(event);

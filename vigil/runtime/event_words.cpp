@@ -1,0 +1,108 @@
+#include "vigil/runtime/event_words.hpp"
+
+#include <array>
+
+#include <fmt/format.h>
+
+#include "vigil/swarm/command.hpp"
+
+namespace vigil::runtime {
+namespace {
+
+using swarm::Activity;
+using swarm::CommandKind;
+using swarm::VehicleMode;
+
+constexpr std::array<std::string_view, 3> kSeverityWords{"info", "warning", "alarm"};
+
+std::string who_covers(std::size_t active, std::size_t drones) {
+  if (active == 0) return "no drone covers";
+  return fmt::format("{} of {} drones cover", active, drones);
+}
+
+std::string who_takes_over(std::size_t active, std::size_t drones) {
+  return who_covers(active, drones) + (active == 0 ? "" : "; they take over its share");
+}
+
+std::string battery_in_words(const swarm::DroneSnapshot& drone) {
+  return fmt::format("{:.0f} %", 100.0 * drone.battery);
+}
+
+}  // namespace
+
+std::string_view name_of(Severity severity) { return kSeverityWords.at(static_cast<std::size_t>(severity)); }
+
+EventWords words_for(std::string_view id, Activity after, const swarm::DroneSnapshot& drone, std::size_t active,
+                     std::size_t drones) {
+  const std::string lost = who_takes_over(active, drones);
+  switch (after) {
+    case Activity::kActive:
+      return {Severity::kInfo, fmt::format("{} covers", id), who_covers(active, drones), ""};
+    case Activity::kNeverSeen:
+      return {Severity::kWarning, fmt::format("{} has not been seen yet", id), "it is not steered",
+              "check its tracker and its link"};
+    case Activity::kGrounded:
+      return {Severity::kInfo, fmt::format("{} is on the ground", id), who_covers(active, drones),
+              "take off when it is to fly"};
+    case Activity::kTakingOff:
+      return {Severity::kInfo, fmt::format("{} takes off", id), "the others keep away from above it", ""};
+    case Activity::kLanding:
+      return {Severity::kWarning, fmt::format("{} lands", id), lost, "take off again when it is ready"};
+    case Activity::kEmergencyStop:
+      return {Severity::kAlarm, fmt::format("{}: motors stopped", id), "it comes down where it is; " + lost,
+              "secure the place; a take-off on the ground ends the stop"};
+    case Activity::kOverridden:
+      return {Severity::kWarning, fmt::format("a pilot flies {}", id), "the others give way to it; " + lost,
+              "give it back when the pilot is done"};
+    case Activity::kMarkedFailed:
+      return {Severity::kAlarm, fmt::format("{} is marked as failed", id), "it is not steered any more; " + lost,
+              "resume takes it back"};
+    case Activity::kVehicleFailed:
+      return {Severity::kAlarm, fmt::format("{} says that it failed", id), "it follows nobody; " + lost,
+              "clear the ground below it; stop its motors if it is a danger"};
+    case Activity::kTrackingLost:
+      return {Severity::kAlarm, fmt::format("{} is not seen by its tracker", id),
+              "it is told to hover, the others keep farther away; " + lost,
+              "look for it; it covers again by itself once it is seen"};
+    case Activity::kLinkLost:
+      return {Severity::kAlarm, fmt::format("{} is not heard", id),
+              "it does what its own failsafe does, the others keep away; " + lost,
+              "check its radio; it covers again by itself once it is heard"};
+    case Activity::kBatteryLow:
+      return {Severity::kWarning, fmt::format("{}: battery at {}", id, battery_in_words(drone)),
+              "it lands where it is; " + lost, "change its battery, then take off"};
+    case Activity::kHeld:
+      return {Severity::kInfo, fmt::format("{} holds", id), lost, "resume sends it back to coverage"};
+    case Activity::kRecovering:
+      break;
+  }
+  return {Severity::kInfo, fmt::format("{} is healthy again", id), "it covers in a moment", ""};
+}
+
+std::string refusal_words(std::string_view id, CommandKind wish, const swarm::DroneSnapshot& drone) {
+  const bool is_down = drone.mode == VehicleMode::kGrounded;
+  if (drone.mode == VehicleMode::kUnknown) return fmt::format("{} was never heard of", id);
+  if (drone.activity == Activity::kEmergencyStop && !is_down)
+    return fmt::format("{}: its motors were stopped in the air", id);
+  switch (wish) {
+    case CommandKind::kTakeOff:
+      if (!is_down) return fmt::format("{} is in the air; only a drone on the ground takes off", id);
+      if (drone.activity == Activity::kMarkedFailed)
+        return fmt::format("{} is marked as failed; resume it before it takes off", id);
+      return fmt::format("a pilot has {}; it must be given back first", id);
+    case CommandKind::kLand:
+      return fmt::format("{} is on the ground already", id);
+    case CommandKind::kHold:
+      if (is_down) return fmt::format("{} is on the ground; only a drone in the air holds", id);
+      return fmt::format("a pilot has {}; it must be given back first", id);
+    case CommandKind::kResume:
+      return fmt::format("{} is neither held nor marked as failed", id);
+    case CommandKind::kGiveBack:
+      return fmt::format("nobody took {} over", id);
+    default:
+      break;
+  }
+  return fmt::format("{} cannot do that now", id);
+}
+
+}  // namespace vigil::runtime

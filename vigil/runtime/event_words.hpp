@@ -1,0 +1,33 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+
+#include "vigil/swarm/snapshot.hpp"
+
+namespace vigil::runtime {
+
+enum class Severity : std::uint8_t { kInfo, kWarning, kAlarm };
+
+/// "info", "warning", "alarm"
+[[nodiscard]] std::string_view name_of(Severity severity);
+
+/// An event for people: what happened, what it does to the swarm, what to do next. The last two may be empty.
+struct EventWords {
+  Severity severity = Severity::kInfo;
+  std::string text{};
+  std::string effect{};
+  std::string next{};
+};
+
+/// A drone's activity became another one. `active` of `drones` cover now.
+[[nodiscard]] EventWords words_for(std::string_view id, swarm::Activity after, const swarm::DroneSnapshot& drone,
+                                   std::size_t active, std::size_t drones);
+
+/// Why a drone in this state could not do what somebody wished: "cf2 is in the air; only a drone on the ground takes
+/// off".
+[[nodiscard]] std::string refusal_words(std::string_view id, swarm::CommandKind wish,
+                                        const swarm::DroneSnapshot& drone);
+
+}  // namespace vigil::runtime

@@ -1,0 +1,38 @@
+#include "vigil/runtime/live_mission.hpp"
+
+#include <chrono>
+#include <utility>
+
+namespace vigil::runtime {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+void run(const std::stop_token& stop, ControlLoop& loop) {
+  loop.begin(Clock::now().time_since_epoch());
+  while (!stop.stop_requested()) {
+    const ControlLoop::Time next = loop.turn(Clock::now().time_since_epoch());
+    std::this_thread::sleep_until(Clock::time_point(std::chrono::duration_cast<Clock::duration>(next)));
+  }
+}
+
+}  // namespace
+
+LiveMission::LiveMission(Mission mission, std::unique_ptr<VirtualFleet> fleet, std::unique_ptr<QueuedRecorder> recorder,
+                         const LiveStart& start, std::uint32_t epoch)
+    : mission_(std::move(mission)),
+      fleet_(std::move(fleet)),
+      recorder_(std::move(recorder)),
+      epoch_(epoch),
+      flight_(mission_, *fleet_, fleet_.get(), recorder_.get(), start),
+      loop_(flight_, mission_.drones.size()) {}
+
+LiveMission::~LiveMission() {
+  thread_ = {};  // asks it to stop, and waits
+}
+
+void LiveMission::start() {
+  thread_ = std::jthread([this](const std::stop_token& stop) { run(stop, loop_); });
+}
+
+}  // namespace vigil::runtime

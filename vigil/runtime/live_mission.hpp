@@ -1,0 +1,43 @@
+#pragma once
+
+#include <memory>
+#include <thread>
+
+#include "vigil/runtime/control_loop.hpp"
+#include "vigil/runtime/fleet.hpp"
+#include "vigil/runtime/mission.hpp"
+#include "vigil/runtime/queued_recorder.hpp"
+
+namespace vigil::runtime {
+
+/// A mission that is being flown, in real time, by a control thread of its own.
+class LiveMission {
+ public:
+  /// `epoch` tells missions apart that one program flies one after the other. The recorder may be null.
+  LiveMission(Mission mission, std::unique_ptr<VirtualFleet> fleet, std::unique_ptr<QueuedRecorder> recorder,
+              const LiveStart& start, std::uint32_t epoch);
+  /// Ends the control thread, then the recording.
+  ~LiveMission();
+  LiveMission(const LiveMission&) = delete;
+  LiveMission& operator=(const LiveMission&) = delete;
+
+  /// Lets the first tick begin. Call once.
+  void start();
+
+  [[nodiscard]] const Mission& mission() const noexcept { return mission_; }  ///< as it was at first
+  [[nodiscard]] std::uint32_t epoch() const noexcept { return epoch_; }
+  [[nodiscard]] ControlLoop& loop() noexcept { return loop_; }
+  [[nodiscard]] const QueuedRecorder* recorder() const noexcept { return recorder_.get(); }
+  [[nodiscard]] QueuedRecorder* recorder() noexcept { return recorder_.get(); }
+
+ private:
+  Mission mission_;
+  std::unique_ptr<VirtualFleet> fleet_;
+  std::unique_ptr<QueuedRecorder> recorder_;
+  std::uint32_t epoch_;
+  LiveFlight flight_;
+  ControlLoop loop_;
+  std::jthread thread_;
+};
+
+}  // namespace vigil::runtime

@@ -1,0 +1,103 @@
+#include "vigil/runtime/queued_recorder.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <stdexcept>
+#include <utility>
+
+#include <fmt/format.h>
+
+namespace vigil::runtime {
+namespace {
+
+using namespace std::chrono_literals;
+
+constexpr std::size_t kMostNotes = 10'000;
+constexpr auto kLookEvery = 10ms;
+
+std::size_t slot_count(std::size_t drones) {
+  const std::size_t slot_bytes =
+      64 + drones * (sizeof(swarm::DroneSnapshot) + sizeof(TruthSample) + 4 * sizeof(swarm::Event));
+  return std::clamp<std::size_t>(QueuedRecorder::kMostBytes / slot_bytes, 4, 1024);
+}
+
+}  // namespace
+
+QueuedRecorder::QueuedRecorder(std::unique_ptr<Recorder> inner, const Mission& mission)
+    : inner_(std::move(inner)), notes_(kMostNotes) {
+  inner_->begin(mission);
+  const std::size_t drones = mission.drones.size();
+  const std::size_t slots = slot_count(drones);
+  slots_.reserve(slots);
+  for (std::size_t n = 0; n < slots; ++n) {
+    slots_.push_back({swarm::Snapshot(drones), {}, {}});
+    slots_.back().truth.reserve(drones);
+    slots_.back().snapshot.events.reserve(4 * drones + 64);
+  }
+  thread_ = std::jthread([this](const std::stop_token& stop) { run(stop); });
+}
+
+QueuedRecorder::~QueuedRecorder() { thread_ = {}; }
+
+void QueuedRecorder::record(const TickRecord& tick) noexcept {
+  const std::uint64_t number = written_.load(std::memory_order_relaxed);
+  if (number - taken_.load(std::memory_order_acquire) >= slots_.size()) {
+    lost_.fetch_add(1, std::memory_order_relaxed);
+    return;
+  }
+  Slot& slot = slots_[number % slots_.size()];
+  slot.snapshot = tick.snapshot;
+  slot.truth.assign(tick.truth.begin(), tick.truth.end());
+  slot.clearances = tick.clearances;
+  written_.store(number + 1, std::memory_order_release);
+}
+
+void QueuedRecorder::log(const LoggedEvent& event) noexcept {
+  std::vector<Note> note;
+  note.emplace_back(event);
+  if (!notes_.push(std::move(note))) lost_.fetch_add(1, std::memory_order_relaxed);
+}
+
+void QueuedRecorder::targets(double time_s, const TargetsSection& targets) noexcept {
+  std::vector<Note> note;
+  note.emplace_back(NewTargets{time_s, targets});
+  if (!notes_.push(std::move(note))) lost_.fetch_add(1, std::memory_order_relaxed);
+}
+
+void QueuedRecorder::write_notes() {
+  for (const Note& note : notes_.take()) {
+    if (const auto* event = std::get_if<LoggedEvent>(&note)) inner_->log(*event);
+    if (const auto* change = std::get_if<NewTargets>(&note)) inner_->targets(change->time_s, change->targets);
+  }
+}
+
+bool QueuedRecorder::write_tick() {
+  const std::uint64_t number = taken_.load(std::memory_order_relaxed);
+  if (number == written_.load(std::memory_order_acquire)) return false;
+  const Slot& slot = slots_[number % slots_.size()];
+  inner_->record({slot.snapshot, slot.truth, slot.clearances});
+  taken_.store(number + 1, std::memory_order_release);
+  kept_.fetch_add(1, std::memory_order_relaxed);
+  return true;
+}
+
+void QueuedRecorder::run(const std::stop_token& stop) {
+  while (!stop.stop_requested()) {
+    write_notes();
+    while (write_tick()) write_notes();
+    std::this_thread::sleep_for(kLookEvery);
+  }
+}
+
+void QueuedRecorder::finish() {
+  thread_ = {};
+  write_notes();
+  while (write_tick()) {
+  }
+  inner_->finish();
+  if (lost_ticks() > 0)
+    throw std::runtime_error(fmt::format(
+        "{} ticks could not be recorded as quickly as they came; record every Nth, or to a faster disk", lost_ticks()));
+}
+
+}  // namespace vigil::runtime

@@ -1,0 +1,69 @@
+#pragma once
+
+#include <atomic>
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <thread>
+#include <variant>
+#include <vector>
+
+#include "vigil/runtime/hand_over.hpp"
+#include "vigil/runtime/recorder.hpp"
+
+namespace vigil::runtime {
+
+/// Records through another recorder, on a thread of its own, so that no disk ever delays a tick: record(), log() and
+/// targets() never wait; what finds the queue full is lost and counted. record() belongs to the control thread; log()
+/// and targets() to any thread but for the order among them.
+class QueuedRecorder final : public Recorder {
+ public:
+  /// Ticks that wait for the disk use at most about this much memory.
+  static constexpr std::size_t kMostBytes = std::size_t{64} << 20U;
+
+  /// Calls inner->begin(mission) at once: its exceptions are the caller's.
+  QueuedRecorder(std::unique_ptr<Recorder> inner, const Mission& mission);
+  ~QueuedRecorder() override;
+  QueuedRecorder(const QueuedRecorder&) = delete;
+  QueuedRecorder& operator=(const QueuedRecorder&) = delete;
+
+  void begin(const Mission& /*mission*/) override {}
+  void record(const TickRecord& tick) noexcept override;
+  void log(const LoggedEvent& event) noexcept override;
+  void targets(double time_s, const TargetsSection& targets) noexcept override;
+  /// Writes what waits and ends the recording; whatever inner->finish() throws, or an exception that says how many
+  /// ticks were lost.
+  void finish() override;
+
+  // Any thread.
+  [[nodiscard]] std::uint64_t kept_ticks() const noexcept { return kept_.load(std::memory_order_relaxed); }
+  [[nodiscard]] std::uint64_t lost_ticks() const noexcept { return lost_.load(std::memory_order_relaxed); }
+
+ private:
+  /// A tick as it waits; slots are made once and used again.
+  struct Slot {
+    swarm::Snapshot snapshot;
+    std::vector<TruthSample> truth;
+    Clearances clearances;
+  };
+  struct NewTargets {
+    double time_s = 0.0;
+    TargetsSection targets;
+  };
+  using Note = std::variant<LoggedEvent, NewTargets>;
+
+  void write_notes();
+  bool write_tick();
+  void run(const std::stop_token& stop);
+
+  std::unique_ptr<Recorder> inner_;
+  std::vector<Slot> slots_;
+  std::atomic<std::uint64_t> written_{0};  ///< slots filled, by the control thread
+  std::atomic<std::uint64_t> taken_{0};    ///< slots emptied, by this recorder's thread
+  Inbox<Note> notes_;
+  std::atomic<std::uint64_t> kept_{0};
+  std::atomic<std::uint64_t> lost_{0};
+  std::jthread thread_;
+};
+
+}  // namespace vigil::runtime
