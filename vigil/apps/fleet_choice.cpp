@@ -74,22 +74,37 @@ dynamics::Wind wind(const runtime::Mission& mission) {
   return wind;
 }
 
+sim::FleetParameters fleet_parameters(const runtime::Mission& mission) {
+  const runtime::SimulationSection& simulation = mission.simulation;
+  const double dt_s = runtime::tick_s(mission);
+  return {.vehicle = vehicle_parameters(mission),
+          .tracker = tracker_parameters(simulation.tracker, dt_s),
+          .confusion = {.swaps_per_h = simulation.tracker.swaps_per_h, .swap_s = simulation.tracker.swap_s},
+          .link = link_parameters(simulation.link, dt_s),
+          .wind = wind(mission),
+          .positions_over_link = simulation.tracker.over_link,
+          .dt_s = dt_s,
+          .seed = simulation.seed,
+          .starts_flying = simulation.start == runtime::StartState::kFlying,
+          .stays_down = {}};
+}
+
 }  // namespace
 
 std::unique_ptr<runtime::VirtualFleet> simulated_fleet(const runtime::Mission& mission) {
-  const runtime::SimulationSection& simulation = mission.simulation;
-  const double dt_s = runtime::tick_s(mission);
-  const sim::FleetParameters parameters{
-      .vehicle = vehicle_parameters(mission),
-      .tracker = tracker_parameters(simulation.tracker, dt_s),
-      .confusion = {.swaps_per_h = simulation.tracker.swaps_per_h, .swap_s = simulation.tracker.swap_s},
-      .link = link_parameters(simulation.link, dt_s),
-      .wind = wind(mission),
-      .positions_over_link = simulation.tracker.over_link,
-      .dt_s = dt_s,
-      .seed = simulation.seed,
-      .starts_flying = simulation.start == runtime::StartState::kFlying};
-  return std::make_unique<sim::SimulatedFleet>(parameters, runtime::starts_in_field(mission));
+  return std::make_unique<sim::SimulatedFleet>(fleet_parameters(mission), runtime::starts_in_field(mission));
+}
+
+std::unique_ptr<runtime::VirtualFleet> simulated_fleet(const runtime::Mission& mission,
+                                                       std::span<const DroneStart> starts) {
+  sim::FleetParameters parameters = fleet_parameters(mission);
+  parameters.starts_flying = true;
+  std::vector<Vec2> places;
+  for (const DroneStart& start : starts) {
+    places.push_back(start.place_m);
+    parameters.stays_down.push_back(start.is_down);
+  }
+  return std::make_unique<sim::SimulatedFleet>(parameters, places);
 }
 
 }  // namespace vigil::apps

@@ -12,6 +12,7 @@
 #include "vigil/apps/check_command.hpp"
 #include "vigil/apps/failure.hpp"
 #include "vigil/apps/report_command.hpp"
+#include "vigil/apps/serve_command.hpp"
 #include "vigil/apps/simulate_command.hpp"
 #include "vigil/runtime/mission_error.hpp"
 
@@ -24,6 +25,7 @@ struct Arguments {
   CampaignOptions campaign;
   CheckOptions check;
   ReportArguments report;
+  ServeOptions serve;
 };
 
 void add_settings(CLI::App* command, std::vector<std::string>& settings) {
@@ -111,6 +113,34 @@ CLI::App* add_report(CLI::App& program, ReportArguments& arguments) {
   return command;
 }
 
+CLI::App* add_serve(CLI::App& program, ServeOptions& options) {
+  CLI::App* command = program.add_subcommand("serve", "Fly a mission in real time, with the operator's console");
+  command->add_option("MISSION", options.mission, "The mission file (YAML)")->required();
+  command->add_option("--fleet", options.fleet, "Which drones: sim (simulated, the default)");
+  command->add_option("--port", options.port, "Where the console is served (default 8080; 0: any free port)");
+  command->add_option("--address", options.address,
+                      "The address to listen at (default 127.0.0.1: this machine only); others need --tokens");
+  command->add_option("--name", options.names, "Another name by which browsers come here, e.g. base.example.org")
+      ->take_all();
+  command->add_option("--tokens", options.tokens, "File of lines `ROLE TOKEN`: viewer, operator, safety_pilot")
+      ->check(not_empty());
+  command->add_option("--certificate", options.certificate, "Serve by TLS with this certificate (PEM)")
+      ->check(not_empty());
+  command->add_option("--key", options.key, "The certificate's key (PEM)")->check(not_empty());
+  command->add_option("--record", options.record, "Directory for a recording; must not exist")->check(not_empty());
+  command->add_option("--record-every", options.keep_every, "Keep every Nth tick in the recording")
+      ->check(CLI::Range(1, 1'000'000));
+  command->add_option("--state", options.state, "Directory from which a restarted program goes on where it was")
+      ->check(not_empty());
+  command->add_flag("--afresh", options.afresh, "Forget what an earlier run left in --state");
+  command->add_option("--page", options.page, "Folder of the console's page instead of the built one")
+      ->check(not_empty());
+  add_settings(command, options.settings);
+  command->footer(
+      "Exit codes: 0 ended by Ctrl-C, 2 bad arguments or mission file, 3 a component is missing or failed.");
+  return command;
+}
+
 int run(int argc, char** argv) {
   CLI::App program("A drone swarm that persistently monitors what people point at.", "vigil");
   program.set_version_flag("--version", "vigil " VIGIL_VERSION);
@@ -120,6 +150,7 @@ int run(int argc, char** argv) {
   const CLI::App* campaign_command = add_campaign(program, arguments.campaign);
   const CLI::App* check_command = add_check(program, arguments.check);
   const CLI::App* report_command = add_report(program, arguments.report);
+  const CLI::App* serve_command = add_serve(program, arguments.serve);
   const CLI::App* schema_command =
       program.add_subcommand("schema", "Print the JSON Schema of mission files, for editors");
   program.footer(exit_codes("1 a run of a campaign broke a rule, ", true) +
@@ -135,6 +166,7 @@ int run(int argc, char** argv) {
   if (campaign_command->parsed()) return campaign(arguments.campaign);
   if (check_command->parsed()) return check(arguments.check);
   if (report_command->parsed()) return report(arguments.report);
+  if (serve_command->parsed()) return serve(arguments.serve, VIGIL_VERSION);
   if (schema_command->parsed()) return print_schema();
   std::fputs(program.help().c_str(), stdout);
   return kBadInput;

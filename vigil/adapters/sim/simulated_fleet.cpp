@@ -48,9 +48,11 @@ SimulatedFleet::SimulatedFleet(const FleetParameters& parameters, std::span<cons
 SimulatedFleet::Drone SimulatedFleet::make_drone(const FleetParameters& parameters, std::size_t number,
                                                  const Vec2& start) const {
   const auto random = [&](Purpose purpose) { return dynamics::RandomStream(parameters.seed, number, purpose); };
-  return {SimulatedVehicle(parameters.vehicle, start, parameters.starts_flying, dead_ticks(parameters)),
+  const bool stays_down = number < parameters.stays_down.size() && parameters.stays_down[number];
+  const bool starts_flying = parameters.starts_flying && !stays_down;
+  return {SimulatedVehicle(parameters.vehicle, start, starts_flying, dead_ticks(parameters)),
           SimulatedTracker(parameters.tracker, dt_s_, random(kTrackerPurpose), random(kSlowTrackerPurpose)),
-          SimulatedWind(parameters.wind, parameters.starts_flying, random(kWindPurpose)),
+          SimulatedWind(parameters.wind, starts_flying, random(kWindPurpose)),
           Channel<swarm::DroneOrder>(order_link(parameters), dt_s_, random(kOrderPurpose)),
           Channel<Telemetry>(parameters.link, dt_s_, random(kTelemetryPurpose)),
           Heard{}};

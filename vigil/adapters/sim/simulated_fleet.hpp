@@ -21,6 +21,7 @@ struct FleetParameters {
   double dt_s = 0.02;                ///< of the control tick
   std::uint64_t seed = 1;
   bool starts_flying = true;
+  std::vector<bool> stays_down;  ///< of each drone: it is on the ground all the same; empty: none
 };
 
 /// Simulated vehicles behind the Fleet port. A tick is observe(), order(), advance(dt_s). Allocates nothing after its

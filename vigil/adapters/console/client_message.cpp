@@ -1,0 +1,168 @@
+#include "vigil/adapters/console/client_message.hpp"
+
+#include <algorithm>
+#include <array>
+#include <limits>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "vigil/adapters/console/edit_json.hpp"
+#include "vigil/adapters/console/json_reader.hpp"
+#include "vigil/runtime/mission_error.hpp"
+#include "vigil/runtime/mission_text.hpp"
+
+namespace vigil::console {
+namespace {
+
+using swarm::CommandKind;
+
+constexpr std::size_t kMostDrones = 100'000;
+constexpr std::size_t kMostIdBytes = 64;
+constexpr std::size_t kMostEditing = 20;
+
+struct WishWord {
+  std::string_view word;
+  CommandKind kind;
+};
+constexpr std::array<WishWord, 7> kWishes{{{"take_off", CommandKind::kTakeOff},
+                                           {"land", CommandKind::kLand},
+                                           {"hold", CommandKind::kHold},
+                                           {"resume", CommandKind::kResume},
+                                           {"mark_failed", CommandKind::kMarkFailed},
+                                           {"give_back", CommandKind::kGiveBack},
+                                           {"emergency_stop", CommandKind::kEmergencyStop}}};
+
+bool is_control(char c) { return static_cast<unsigned char>(c) < 0x20U || c == '\x7F'; }
+
+std::string name_in(const JsonReader& reader) {
+  constexpr std::size_t kMostNameBytes = 128;
+  std::string name = reader.text("name", kMostNameBytes);
+  const auto starts_one = [](char c) { return (static_cast<unsigned char>(c) & 0xC0U) != 0x80U; };
+  const auto characters = std::count_if(name.begin(), name.end(), starts_one);
+  if (characters < 1 || characters > 32 || std::any_of(name.begin(), name.end(), is_control))
+    reader.refuse("name", "must be one line of 1 to 32 characters");
+  return name;
+}
+
+Hello hello_in(const JsonReader& reader) {
+  constexpr std::size_t kMostTokenBytes = 512;
+  reader.allow_only({"type", "name", "token", "role"});
+  Hello hello;
+  if (reader.has("name")) hello.name = name_in(reader);
+  if (reader.has("token")) hello.token = reader.text("token", kMostTokenBytes);
+  if (reader.has("role")) {
+    hello.role = role_of(reader.text("role", kMostIdBytes));
+    if (!hello.role) reader.refuse("role", fmt::format("must be one of: {}", fmt::join(kRoleWords, ", ")));
+  }
+  return hello;
+}
+
+DroneWish wish_in(const JsonReader& reader, CommandKind kind) {
+  reader.allow_only({"type", "id", "drones"});
+  DroneWish wish{kind, false, {}};
+  if (!reader.is_text("drones")) {
+    wish.drones = reader.texts("drones", kMostDrones, kMostIdBytes);
+    if (wish.drones.empty()) reader.refuse("drones", "must name at least one drone");
+    return wish;
+  }
+  wish.all = reader.text("drones", kMostIdBytes) == "all";
+  if (!wish.all) reader.refuse("drones", "must be \"all\" or a list of ids");
+  return wish;
+}
+
+Editing editing_in(const JsonReader& reader) {
+  reader.allow_only({"type", "id", "what"});
+  Editing editing;
+  for (const JsonReader& entry : reader.objects("what", kMostEditing)) {
+    entry.allow_only({"kind", "name"});
+    editing.what.push_back(target_name_in(entry));
+  }
+  return editing;
+}
+
+template <typename Body>
+Body draft_in(const JsonReader& reader) {
+  reader.allow_only({"type", "id", "based_on", "edits"});
+  return {reader.whole("based_on"), edits_in(reader, "edits")};
+}
+
+LoadMission mission_in(const JsonReader& reader) {
+  reader.allow_only({"type", "id", "yaml"});
+  return {reader.text("yaml", runtime::kMostMissionBytes)};
+}
+
+SetSpeed speed_in(const JsonReader& reader) {
+  reader.allow_only({"type", "id", "factor"});
+  return {reader.number("factor")};
+}
+
+template <typename Body>
+Body nothing_in(const JsonReader& reader) {
+  reader.allow_only({"type", "id"});
+  return {};
+}
+
+std::optional<MessageBody> body_in(const JsonReader& reader, std::string_view type) {
+  for (const WishWord& wish : kWishes)
+    if (wish.word == type) return wish_in(reader, wish.kind);
+  if (type == "hello") return hello_in(reader);
+  if (type == "ping") return nothing_in<Ping>(reader);
+  if (type == "preview_density") return draft_in<PreviewDensity>(reader);
+  if (type == "editing") return editing_in(reader);
+  if (type == "edit") return draft_in<Edit>(reader);
+  if (type == "undo") return nothing_in<Undo>(reader);
+  if (type == "redo") return nothing_in<Redo>(reader);
+  if (type == "start_afresh") return nothing_in<StartAfresh>(reader);
+  if (type == "set_speed") return speed_in(reader);
+  if (type == "pause") return nothing_in<Pause>(reader);
+  if (type == "resume_clock") return nothing_in<ResumeClock>(reader);
+  if (type == "load_mission") return mission_in(reader);
+  if (type == "land_all") {
+    reader.allow_only({"type", "id"});
+    return DroneWish{CommandKind::kLand, true, {}};
+  }
+  return std::nullopt;
+}
+
+/// The id, where the message has one that can be read, for the refusal of all else.
+std::optional<std::uint64_t> id_in(const nlohmann::json& message) {
+  try {
+    return JsonReader(message, "").whole("id");
+  } catch (const JsonFault&) {
+    return std::nullopt;
+  }
+}
+
+}  // namespace
+
+std::variant<ClientMessage, MessageRefusal> parse_client_message(std::string_view text) {
+  constexpr std::size_t kMostReasonBytes = 400;
+  if (text.size() > kMostMessageBytes)
+    return MessageRefusal{{}, "too_large", fmt::format("a message has at most {} bytes", kMostMessageBytes)};
+  const nlohmann::json message = nlohmann::json::parse(text, nullptr, false);
+  if (message.is_discarded()) return MessageRefusal{{}, "malformed", "it is not JSON in UTF-8"};
+  const std::optional<std::uint64_t> id = id_in(message);
+  try {
+    const JsonReader reader(message, "");
+    std::string type = reader.text("type", kMostIdBytes);
+    std::optional<MessageBody> body = body_in(reader, type);
+    if (!body)
+      return MessageRefusal{id, "unknown_type",
+                            fmt::format("type: \"{}\" is not known to {}", runtime::on_one_line(type, 60), "vigil.v1")};
+    if (std::holds_alternative<Hello>(*body)) return ClientMessage{{}, std::move(type), *std::move(body)};
+    return ClientMessage{reader.whole("id"), std::move(type), *std::move(body)};
+  } catch (const JsonFault& fault) {
+    return MessageRefusal{id, "malformed", runtime::on_one_line(fault.what(), kMostReasonBytes)};
+  }
+}
+
+Role role_for(const MessageBody& body) {
+  if (const auto* wish = std::get_if<DroneWish>(&body))
+    return wish->kind == CommandKind::kEmergencyStop ? Role::kSafetyPilot : Role::kOperator;
+  const bool only_looks = std::holds_alternative<Hello>(body) || std::holds_alternative<Ping>(body) ||
+                          std::holds_alternative<PreviewDensity>(body);
+  return only_looks ? Role::kViewer : Role::kOperator;
+}
+
+}  // namespace vigil::console

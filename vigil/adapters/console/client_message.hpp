@@ -1,0 +1,75 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <variant>
+#include <vector>
+
+#include "vigil/adapters/console/role.hpp"
+#include "vigil/runtime/target_edit.hpp"
+#include "vigil/swarm/command.hpp"
+
+/// What clients say, by protocol/README.md. Everything that arrives is checked here, once.
+namespace vigil::console {
+
+inline constexpr std::size_t kMostMessageBytes = 1'572'864;
+
+struct Hello {
+  std::string name;
+  std::string token;
+  std::optional<Role> role;
+};
+struct Ping {};
+struct PreviewDensity {
+  std::uint64_t based_on = 0;
+  std::vector<runtime::TargetEdit> edits;
+};
+struct Editing {
+  std::vector<runtime::TargetName> what;
+};
+struct DroneWish {
+  swarm::CommandKind kind = swarm::CommandKind::kHold;
+  bool all = false;
+  std::vector<std::string> drones;  ///< ids, where not all
+};
+struct Edit {
+  std::uint64_t based_on = 0;
+  std::vector<runtime::TargetEdit> edits;
+};
+struct Undo {};
+struct Redo {};
+struct StartAfresh {};
+struct SetSpeed {
+  double factor = 1.0;
+};
+struct Pause {};
+struct ResumeClock {};
+struct LoadMission {
+  std::string yaml;
+};
+
+using MessageBody = std::variant<Hello, Ping, PreviewDensity, Editing, DroneWish, Edit, Undo, Redo, StartAfresh,
+                                 SetSpeed, Pause, ResumeClock, LoadMission>;
+
+struct ClientMessage {
+  std::optional<std::uint64_t> id;  ///< always there but for Hello
+  std::string type;
+  MessageBody body;
+};
+
+/// Why a message or command was not followed.
+struct MessageRefusal {
+  std::optional<std::uint64_t> id;  ///< where it could be read
+  std::string_view code;            ///< one of the protocol's words
+  std::string reason;               ///< one line, for people
+};
+
+/// Any bytes. Never throws but for want of memory.
+[[nodiscard]] std::variant<ClientMessage, MessageRefusal> parse_client_message(std::string_view text);
+
+/// The least role that may send a message.
+[[nodiscard]] Role role_for(const MessageBody& body);
+
+}  // namespace vigil::console

@@ -1,0 +1,162 @@
+#include "vigil/adapters/console/desk.hpp"
+
+#include <utility>
+
+#include "vigil/adapters/console/frames.hpp"
+#include "vigil/adapters/console/server_messages.hpp"
+#include "vigil/core/field/density.hpp"
+#include "vigil/runtime/controller_setup.hpp"
+#include "vigil/runtime/grid_of.hpp"
+#include "vigil/runtime/mission_file.hpp"
+#include "vigil/runtime/mission_setup.hpp"
+#include "vigil/runtime/mission_writer.hpp"
+
+namespace vigil::console {
+namespace {
+
+constexpr Eigen::Index kDensityCells = 160;  ///< of a picture's longer side
+constexpr Eigen::Index kPreviewCells = 96;
+constexpr std::size_t kRecentTargets = 64;
+constexpr int kLooksASave = 5;
+
+SharedBytes shared(std::string bytes) { return std::make_shared<const std::string>(std::move(bytes)); }
+
+std::string density_of(const runtime::Mission& mission, Eigen::Index cells, const DensityContext& context) {
+  const field::Field field = runtime::monitored_field(mission);
+  const field::GridShape shape = runtime::grid_of(field, cells);
+  return density_frame(field, field::rasterise(field, runtime::importance(mission), shape), context);
+}
+
+}  // namespace
+
+Desk::Desk(MakeFlight make_flight, Tell tell, std::shared_ptr<runtime::FlightStore> store)
+    : make_flight_(std::move(make_flight)), tell_(std::move(tell)), store_(std::move(store)) {}
+
+void Desk::begin(const runtime::Mission& mission, const runtime::SavedFlight* saved) {
+  std::shared_ptr<runtime::LiveMission> flight = make_flight_(mission, epoch_ + 1, saved);
+  ++epoch_;
+  flight_ = std::move(flight);
+  mission_text_ = saved != nullptr ? saved->mission_text : runtime::mission_yaml(mission);
+  desk_.emplace(mission, saved != nullptr ? saved->revision : 1, saved != nullptr ? "restored" : "mission");
+  ground_.emplace(mission);
+  if (saved != nullptr && !ground_->seen().restore(saved->seen_s))
+    tell_(DeskTrouble{"what was seen before the restart is not known: the state's map has another size"});
+  frame_.emplace(mission.drones.size());
+  frame_version_ = 0;
+  unsent_.reset();
+  tell_(FlightNews{flight_, shared(in_text(mission_message(mission, epoch_))), saved != nullptr});
+  if (saved != nullptr) frame_->snapshot.time_s = static_cast<double>(saved->past.ticks) * runtime::tick_s(mission);
+  retarget(0);
+  flight_->start();
+}
+
+void Desk::retarget(std::uint64_t ticket) {
+  const runtime::Mission& mission = desk_->mission();
+  const DensityContext context{.epoch = epoch_, .revision = static_cast<std::uint32_t>(desk_->revision())};
+  tell_(TargetsNews{shared(in_text(targets_json(*desk_, epoch_))), shared(density_of(mission, kDensityCells, context)),
+                    desk_->revision(), desk_->by(), desk_->what(), mission});
+  recent_targets_.push_back(runtime::coverage_target(mission, ground_->basis()));
+  if (recent_targets_.size() > kRecentTargets) recent_targets_.pop_front();
+  runtime::LiveCommand command;
+  command.swarm = {.kind = swarm::CommandKind::kSetTarget, .drone = {}, .target = recent_targets_.back()};
+  command.revision = desk_->revision();
+  command.ticket = ticket;
+  unsent_ = command;
+  submit_target();
+  ground_->retarget(mission, recent_targets_.back()->phi_k, frame_->snapshot.time_s);
+  if (flight_->recorder() != nullptr) flight_->recorder()->targets(frame_->snapshot.time_s, mission.targets);
+  save();
+}
+
+void Desk::submit_target() {
+  if (unsent_ && flight_->loop().submit({*unsent_})) unsent_.reset();
+}
+
+void Desk::refuse(std::uint64_t ticket, std::string_view code, std::string reason) {
+  if (ticket != 0) tell_(DeskRefusal{ticket, code, std::move(reason)});
+}
+
+void Desk::finish_change(std::uint64_t ticket, const std::optional<runtime::Refusal>& refusal) {
+  if (refusal) return refuse(ticket, code_of(refusal->code), refusal->reason);
+  if (ticket != 0) tell_(DeskAcceptance{ticket});
+  retarget(ticket);
+}
+
+void Desk::edit(std::uint64_t ticket, const std::vector<runtime::TargetEdit>& edits, std::uint64_t based_on,
+                const std::string& by) {
+  finish_change(ticket, desk_->edit(edits, based_on, by));
+}
+
+void Desk::undo(std::uint64_t ticket, const std::string& by) { finish_change(ticket, desk_->undo(by)); }
+
+void Desk::redo(std::uint64_t ticket, const std::string& by) { finish_change(ticket, desk_->redo(by)); }
+
+void Desk::preview(std::uint64_t ticket, const std::atomic<std::uint64_t>& newest, std::uint64_t request,
+                   const std::vector<runtime::TargetEdit>& edits, std::uint64_t based_on) {
+  if (newest.load(std::memory_order_relaxed) != ticket)
+    return refuse(ticket, "superseded", "a newer preview was asked for");
+  std::variant<runtime::Mission, runtime::Refusal> draft = desk_->draft(edits, based_on);
+  if (const auto* refusal = std::get_if<runtime::Refusal>(&draft))
+    return refuse(ticket, code_of(refusal->code), refusal->reason);
+  const DensityContext context{.epoch = epoch_,
+                               .revision = static_cast<std::uint32_t>(desk_->revision()),
+                               .is_preview = true,
+                               .request = request};
+  tell_(DeskAnswer{ticket, desk_->revision(),
+                   shared(density_of(std::get<runtime::Mission>(draft), kPreviewCells, context))});
+}
+
+void Desk::load_mission(std::uint64_t ticket, const std::string& yaml) {
+  try {
+    begin(runtime::parse_mission(yaml, "the mission"), nullptr);
+    tell_(DeskAnswer{ticket, desk_->revision(), nullptr});
+  } catch (const std::exception& error) {
+    refuse(ticket, "invalid", error.what());
+  }
+}
+
+void Desk::play(std::uint32_t epoch, std::size_t event_index) {
+  if (epoch != epoch_) return;
+  const runtime::EventEntry& event = flight_->mission().simulation.events.at(event_index);
+  const runtime::MissionTargets targets{desk_->mission().targets, desk_->mission().no_fly};
+  const runtime::TargetEdit edit = runtime::edit_of(targets, event);
+  if (const auto refusal = desk_->edit(std::span(&edit, 1), desk_->revision(), "mission"))
+    tell_(DeskTrouble{"an event of the mission file no longer fits the targets: " + refusal->reason});
+  else
+    retarget(0);
+}
+
+void Desk::look() {
+  if (!flight_) return;
+  submit_target();
+  if (!flight_->loop().read(*frame_, frame_version_)) return;
+  GroundNews news;
+  news.deadlines = ground_->look(*frame_);
+  news.areas = ground_->areas(*frame_);
+  news.coverage = shared(coverage_frame(ground_->basis().field(), *frame_, epoch_));
+  news.age = shared(age_frame(ground_->seen(), frame_->snapshot.time_s, epoch_));
+  news.tick = frame_->snapshot.tick;
+  news.time_s = frame_->snapshot.time_s;
+  tell_(std::move(news));
+  if (++looks_ % kLooksASave == 0) save();
+}
+
+void Desk::save() {
+  if (!store_ || !flight_ || !frame_->has_ticked) return;
+  runtime::SavedFlight saved;
+  saved.mission_text = mission_text_;
+  saved.targets_text = runtime::mission_yaml(desk_->mission());
+  saved.revision = desk_->revision();
+  saved.past = frame_->past;
+  saved.seen_s.assign(ground_->seen().seen_s().begin(), ground_->seen().seen_s().end());
+  for (const swarm::DroneSnapshot& drone : frame_->snapshot.drones)
+    saved.drones.push_back({drone.position, !runtime::is_airborne(drone)});
+  try {
+    store_->save(saved);
+    save_failed_ = false;
+  } catch (const runtime::SavedFlightError& error) {
+    if (!std::exchange(save_failed_, true)) tell_(DeskTrouble{error.what()});
+  }
+}
+
+}  // namespace vigil::console

@@ -1,0 +1,124 @@
+#pragma once
+
+#include <atomic>
+#include <cstdint>
+#include <deque>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "vigil/adapters/console/client_message.hpp"
+#include "vigil/runtime/ground_picture.hpp"
+#include "vigil/runtime/live_mission.hpp"
+#include "vigil/runtime/mission_desk.hpp"
+#include "vigil/runtime/saved_flight.hpp"
+
+namespace vigil::console {
+
+/// Bytes that are sent to many.
+using SharedBytes = std::shared_ptr<const std::string>;
+
+/// Another mission is flown from now on.
+struct FlightNews {
+  std::shared_ptr<runtime::LiveMission> flight;
+  SharedBytes mission;  ///< the message
+  bool is_restored = false;
+};
+/// Other targets hold from now on.
+struct TargetsNews {
+  SharedBytes targets;  ///< the message
+  SharedBytes density;  ///< the frame
+  std::uint64_t revision = 0;
+  std::string by;
+  std::string what;
+  runtime::Mission mission;  ///< with these targets
+};
+/// What has been seen of the ground.
+struct GroundNews {
+  std::vector<runtime::AreaState> areas;
+  std::vector<runtime::DeadlineChange> deadlines;
+  SharedBytes coverage;
+  SharedBytes age;
+  std::uint64_t tick = 0;
+  double time_s = 0.0;
+};
+/// A change or another mission was refused.
+struct DeskRefusal {
+  std::uint64_t ticket = 0;
+  std::string_view code;
+  std::string reason;
+};
+/// A change was accepted; the control loop answers its ticket when it takes effect.
+struct DeskAcceptance {
+  std::uint64_t ticket = 0;
+};
+/// A preview, or a mission that was loaded: done, there is nothing to wait for.
+struct DeskAnswer {
+  std::uint64_t ticket = 0;
+  std::uint64_t revision = 0;
+  SharedBytes preview;  ///< the frame; null but for previews
+};
+/// Something went wrong that people should know of.
+struct DeskTrouble {
+  std::string text;
+};
+using DeskNews =
+    std::variant<FlightNews, TargetsNews, GroundNews, DeskRefusal, DeskAcceptance, DeskAnswer, DeskTrouble>;
+
+/// Everything of a live flight that takes its time and must not hold up the control thread or the sockets: editing
+/// targets, drawing densities, keeping the picture of the ground, saving the state. All on one thread, the desk's.
+class Desk {
+ public:
+  /// Makes what flies a mission. `saved`: what an earlier run left, or null.
+  using MakeFlight = std::function<std::shared_ptr<runtime::LiveMission>(runtime::Mission mission, std::uint32_t epoch,
+                                                                         const runtime::SavedFlight* saved)>;
+  using Tell = std::function<void(DeskNews)>;
+
+  /// `tell` is called on the desk's thread. store: null where nothing is kept.
+  Desk(MakeFlight make_flight, Tell tell, std::shared_ptr<runtime::FlightStore> store);
+
+  /// Flies a mission: tells FlightNews and TargetsNews. Throws what making a flight throws.
+  void begin(const runtime::Mission& mission, const runtime::SavedFlight* saved);
+
+  void edit(std::uint64_t ticket, const std::vector<runtime::TargetEdit>& edits, std::uint64_t based_on,
+            const std::string& by);
+  void undo(std::uint64_t ticket, const std::string& by);
+  void redo(std::uint64_t ticket, const std::string& by);
+  /// newest: the ticket of the newest preview that the same client asked for; all others are superseded.
+  void preview(std::uint64_t ticket, const std::atomic<std::uint64_t>& newest, std::uint64_t request,
+               const std::vector<runtime::TargetEdit>& edits, std::uint64_t based_on);
+  void load_mission(std::uint64_t ticket, const std::string& yaml);
+  /// An event of the mission file wants other targets.
+  void play(std::uint32_t epoch, std::size_t event_index);
+  /// To be called a few times a second: takes in the newest frame, tells GroundNews, saves once a second.
+  void look();
+  /// Writes the state, where one is kept.
+  void save();
+
+ private:
+  void finish_change(std::uint64_t ticket, const std::optional<runtime::Refusal>& refusal);
+  void retarget(std::uint64_t ticket);
+  void submit_target();
+  void refuse(std::uint64_t ticket, std::string_view code, std::string reason);
+
+  MakeFlight make_flight_;
+  Tell tell_;
+  std::shared_ptr<runtime::FlightStore> store_;
+  std::uint32_t epoch_ = 0;
+  std::shared_ptr<runtime::LiveMission> flight_;
+  std::string mission_text_;
+  std::optional<runtime::MissionDesk> desk_;
+  std::optional<runtime::GroundPicture> ground_;
+  std::optional<runtime::LiveFrame> frame_;
+  std::size_t frame_version_ = 0;
+  std::optional<runtime::LiveCommand> unsent_;  ///< a target that found the control loop's queue full
+  /// The control thread must not be the last to let go of one.
+  std::deque<std::shared_ptr<const swarm::CoverageTarget>> recent_targets_;
+  int looks_ = 0;
+  bool save_failed_ = false;
+};
+
+}  // namespace vigil::console

@@ -1,0 +1,57 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "vigil/core/ergodic/basis.hpp"
+#include "vigil/core/field/density.hpp"
+#include "vigil/core/field/seen_map.hpp"
+#include "vigil/runtime/live_frame.hpp"
+
+/// The binary frames of protocol/README.md, as bytes. Field frame.
+namespace vigil::console {
+
+/// What a snapshot frame says beside the swarm's own snapshot.
+struct SnapshotContext {
+  std::uint32_t epoch = 0;
+  double wall_ms = 0.0;          ///< when the tick was computed, since 1970
+  double age_s = 0.0;            ///< how long ago that was
+  double worst_age_s = 0.0;      ///< NaN: no area
+  double speed_limit_m_s = 0.0;  ///< u_max: velocities are sent to 1/8000 of it, up to four times of it
+  std::uint32_t lost_ticks = 0;
+};
+
+[[nodiscard]] std::string snapshot_frame(const runtime::LiveFrame& frame, const runtime::ClockState& clock,
+                                         const SnapshotContext& context);
+
+struct DensityContext {
+  std::uint32_t epoch = 0;
+  std::uint32_t revision = 0;
+  bool is_preview = false;
+  std::uint64_t request = 0;
+};
+
+/// No density: nothing to look at.
+[[nodiscard]] std::string density_frame(const field::Field& field, const std::optional<field::DensityGrid>& density,
+                                        const DensityContext& context);
+
+[[nodiscard]] std::string coverage_frame(const field::Field& field, const runtime::LiveFrame& frame,
+                                         std::uint32_t epoch);
+
+[[nodiscard]] std::string age_frame(const field::SeenMap& seen, double now_s, std::uint32_t epoch);
+
+/// Where each drone has been: points of all drones at the same moments, spacing_s apart.
+struct Trails {
+  std::size_t drones = 0;
+  std::size_t points = 0;  ///< of each drone
+  double spacing_s = 0.0;
+  double newest_s = 0.0;
+  std::vector<float> xy;  ///< drone by drone, oldest first; NaN: not known
+};
+
+[[nodiscard]] std::string trails_frame(const Trails& trails, std::uint32_t epoch);
+
+}  // namespace vigil::console

@@ -1,0 +1,282 @@
+#include "vigil/adapters/console/hub.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "vigil/runtime/mission_error.hpp"
+
+namespace vigil::console {
+namespace {
+
+using namespace std::chrono_literals;
+
+constexpr double kMessagesASecond = 50.0;
+constexpr double kMessagesAtOnce = 200.0;
+/// A client that was refused so often for its rate means no good.
+constexpr std::size_t kMostRefusedForRate = 2000;
+/// Commands of all clients that wait for an answer.
+constexpr std::size_t kMostWaiting = 4096;
+
+template <typename... Cases>
+struct Overloaded : Cases... {
+  using Cases::operator()...;
+};
+
+std::string name_or(const std::string& name, std::uint32_t client) {
+  return name.empty() ? fmt::format("operator {}", client) : name;
+}
+
+}  // namespace
+
+Hub::Hub(HubSetup setup, HubLinks links) : setup_(std::move(setup)), links_(std::move(links)) {}
+
+std::optional<Role> Hub::role_for(std::string_view token) const {
+  return setup_.tokens ? setup_.tokens->role_for(token) : std::optional(Role::kSafetyPilot);
+}
+
+Hub::ClientId Hub::connect(std::shared_ptr<ClientLine> line) {
+  const ClientId id = next_client_++;
+  clients_.emplace(id, Client{{id, "", Role::kViewer, {}},
+                              std::move(line),
+                              links_.now(),
+                              false,
+                              RateLimit(kMessagesASecond, kMessagesAtOnce)});
+  return id;
+}
+
+void Hub::disconnect(ClientId client) {
+  const auto found = clients_.find(client);
+  if (found == clients_.end()) return;
+  const bool was_seen = found->second.has_said_hello;
+  clients_.erase(found);
+  if (was_seen) tell_presence();
+}
+
+void Hub::part_with(ClientId id, std::string_view code, std::string_view reason) {
+  const auto found = clients_.find(id);
+  if (found == clients_.end()) return;
+  found->second.line->say(std::make_shared<const std::string>(in_text(bye_json(code, reason))));
+  found->second.line->close();
+  disconnect(id);
+}
+
+void Hub::end() {
+  while (!clients_.empty()) part_with(clients_.begin()->first, "ending", "the program ends");
+}
+
+void Hub::receive(ClientId id, std::string_view text) {
+  const auto found = clients_.find(id);
+  if (found == clients_.end()) return;
+  Client& client = found->second;
+  if (!client.rate.admit(links_.now())) return refuse_message(id, "too_fast", "wait a moment: 50 messages a second");
+  std::variant<ClientMessage, MessageRefusal> parsed = parse_client_message(text);
+  if (const auto* refusal = std::get_if<MessageRefusal>(&parsed)) {
+    if (!client.has_said_hello) return part_with(id, "no_hello", "the first message must be hello: " + refusal->reason);
+    client.line->say(std::make_shared<const std::string>(in_text(refused_json(*refusal))));
+    return;
+  }
+  const auto& message = std::get<ClientMessage>(parsed);
+  if (const auto* hello = std::get_if<Hello>(&message.body)) return greet(client, *hello);
+  if (!client.has_said_hello) return part_with(id, "no_hello", "the first message must be hello");
+  const std::weak_ptr<ClientLine> line = client.line;
+  execute(message, {id, client.who.role, client.who.name}, [line](const Json& answer) {
+    if (const auto still_there = line.lock()) still_there->say(std::make_shared<const std::string>(in_text(answer)));
+  });
+}
+
+void Hub::refuse_message(ClientId id, std::string_view code, std::string_view reason) {
+  const auto found = clients_.find(id);
+  if (found == clients_.end()) return;
+  Client& client = found->second;
+  if (!client.has_said_hello || ++client.refused_for_rate > kMostRefusedForRate)
+    return part_with(id, "too_fast", reason);
+  const MessageRefusal refusal{{}, code, std::string(reason)};
+  client.line->say(std::make_shared<const std::string>(in_text(refused_json(refusal))));
+}
+
+void Hub::greet(Client& client, const Hello& hello) {
+  if (client.has_said_hello) return refuse_message(client.who.client, "malformed", "hello was said already");
+  const std::optional<Role> role = role_for(hello.token);
+  if (!role)
+    return part_with(client.who.client, "bad_token", "this token opens nothing; ask who runs the server for one");
+  client.has_said_hello = true;
+  client.who.role = hello.role ? std::min(*hello.role, *role) : *role;
+  client.who.name = name_or(hello.name, client.who.client);
+  show_everything(client);
+  tell_presence();
+}
+
+void Hub::show_everything(Client& client) {
+  const auto say = [&client](const Json& json) {
+    client.line->say(std::make_shared<const std::string>(in_text(json)));
+  };
+  say(hello_json(client.who, setup_.program, wants_login()));
+  if (mission_message_) client.line->say(mission_message_);
+  if (targets_message_) client.line->say(targets_message_);
+  if (!events_.empty()) say(events_json({events_.begin(), events_.end()}));
+  if (!flight_) return;
+  say(status());
+  client.line->show(ClientLine::Latest::kTrails,
+                    std::make_shared<const std::string>(trails_frame(trails_->trails(), flight_->epoch())));
+  if (density_) client.line->show(ClientLine::Latest::kDensity, density_);
+  if (coverage_) client.line->show(ClientLine::Latest::kCoverage, coverage_);
+  if (age_) client.line->show(ClientLine::Latest::kAge, age_);
+}
+
+void Hub::tell_presence() {
+  std::vector<Operator> present;
+  for (const auto& [id, client] : clients_)
+    if (client.has_said_hello) present.push_back(client.who);
+  say_to_all(presence_json(present));
+}
+
+void Hub::say_to_all(const Json& json) {
+  const SharedBytes text = std::make_shared<const std::string>(in_text(json));
+  for (const auto& [id, client] : clients_)
+    if (client.has_said_hello) client.line->say(text);
+}
+
+void Hub::show_to_all(ClientLine::Latest kind, const SharedBytes& bytes) {
+  for (const auto& [id, client] : clients_)
+    if (client.has_said_hello) client.line->show(kind, bytes);
+}
+
+void Hub::command(const ClientMessage& message, Role role, const std::string& by, Reply reply) {
+  execute(message, {0, role, by}, std::move(reply));
+}
+
+void Hub::execute(const ClientMessage& message, const Author& author, Reply reply) {
+  const std::uint64_t id = message.id.value_or(0);
+  const Role least = console::role_for(message.body);
+  if (author.role < least)
+    return reply(refused_json({id, "not_allowed", fmt::format("{} needs the role {}", message.type, name_of(least))}));
+  if (std::holds_alternative<Ping>(message.body)) return reply(pong_json(id, links_.wall_ms()));
+  if (const auto* editing = std::get_if<Editing>(&message.body)) {
+    set_editing(author.client, *editing);
+    return reply(ack_json(id, {frame_ ? frame_->snapshot.tick : 0, false, {}, {}}));
+  }
+  if (!flight_) return reply(refused_json({id, "not_now", "no mission is being flown yet"}));
+  if (waiting_.size() >= kMostWaiting) return reply(refused_json({id, "busy", "too many commands wait; try again"}));
+  const std::uint64_t ticket = expect(message, author, std::move(reply));
+  dispatch(message, author, ticket);
+}
+
+std::uint64_t Hub::expect(const ClientMessage& message, const Author& author, Reply reply) {
+  const std::uint64_t ticket = next_ticket_++;
+  Waiting waiting;
+  waiting.id = message.id.value_or(0);
+  waiting.what = message.type;
+  waiting.by = author.name;
+  waiting.reply = std::move(reply);
+  if (std::holds_alternative<PreviewDensity>(message.body)) waiting.preview_for = author.client;
+  if (const auto* wish = std::get_if<DroneWish>(&message.body))
+    waiting.drones = wish->all
+                         ? "all"
+                         : fmt::format("{}", fmt::join(wish->drones.begin(),
+                                                       std::min(wish->drones.begin() + 8, wish->drones.end()), ", "));
+  waiting_.emplace(ticket, std::move(waiting));
+  return ticket;
+}
+
+void Hub::dispatch(const ClientMessage& message, const Author& author, std::uint64_t ticket) {
+  const std::string by = author.name;
+  const auto clock = [&](runtime::LiveCommand::Kind kind, double speed) {
+    runtime::LiveCommand command;
+    command.kind = kind;
+    command.speed = speed;
+    submit({command}, ticket);
+  };
+  const auto swarm = [&](swarm::CommandKind kind) {
+    runtime::LiveCommand command;
+    command.swarm.kind = kind;
+    submit({command}, ticket);
+  };
+  std::visit(Overloaded{
+                 [&](const DroneWish& body) { wish(body, ticket); },
+                 [&](const Edit& body) {
+                   ask_desk(ticket, [=](Desk& desk) { desk.edit(ticket, body.edits, body.based_on, by); });
+                 },
+                 [&](const PreviewDensity& body) { preview(body, author, message.id.value_or(0), ticket); },
+                 [&](const Undo&) { ask_desk(ticket, [=](Desk& desk) { desk.undo(ticket, by); }); },
+                 [&](const Redo&) { ask_desk(ticket, [=](Desk& desk) { desk.redo(ticket, by); }); },
+                 [&](const LoadMission& body) {
+                   ask_desk(ticket, [ticket, yaml = body.yaml](Desk& desk) { desk.load_mission(ticket, yaml); });
+                 },
+                 [&](const StartAfresh&) { swarm(swarm::CommandKind::kStartAfresh); },
+                 [&](const SetSpeed& body) {
+                   if (!(body.factor >= 1.0 && body.factor <= kMostSpeed))
+                     return refuse(ticket, "invalid", fmt::format("factor: must be in [1, {}]", kMostSpeed));
+                   clock(runtime::LiveCommand::Kind::kSetSpeed, body.factor);
+                 },
+                 [&](const Pause&) { clock(runtime::LiveCommand::Kind::kPause, 1.0); },
+                 [&](const ResumeClock&) { clock(runtime::LiveCommand::Kind::kResumeClock, 1.0); },
+                 [](const auto&) {},  // answered before
+             },
+             message.body);
+}
+
+void Hub::wish(const DroneWish& wish, std::uint64_t ticket) {
+  std::vector<runtime::LiveCommand> commands;
+  runtime::LiveCommand command;
+  command.swarm.kind = wish.kind;
+  if (wish.all) commands.push_back(command);
+  for (const std::string& id : wish.drones) {
+    const auto found = drone_index_.find(id);
+    if (found == drone_index_.end())
+      return refuse(ticket, "unknown_drone", fmt::format("there is no drone {}", runtime::on_one_line(id, 60)));
+    command.swarm.drone = swarm::DroneId(found->second);
+    commands.push_back(command);
+  }
+  submit(std::move(commands), ticket);
+}
+
+void Hub::submit(std::vector<runtime::LiveCommand> commands, std::uint64_t ticket) {
+  for (runtime::LiveCommand& command : commands) {
+    command.ticket = ticket;
+    command.is_last_of_ticket = false;
+  }
+  commands.back().is_last_of_ticket = true;
+  if (!flight_->loop().submit(std::move(commands)))
+    return refuse(ticket, "busy", "too many commands wait for the next tick; try again");
+  wait_for_control(waiting_.at(ticket));
+}
+
+void Hub::wait_for_control(Waiting& waiting) {
+  waiting.is_at_control = true;
+  waiting.answer_by = links_.now() + 100ms;
+}
+
+void Hub::ask_desk(std::uint64_t ticket, std::function<void(Desk&)> task) {
+  waiting_.at(ticket).wants_revision = true;
+  if (!links_.at_desk(std::move(task))) refuse(ticket, "busy", "too many changes wait; try again");
+}
+
+void Hub::preview(const PreviewDensity& body, const Author& author, std::uint64_t request, std::uint64_t ticket) {
+  const auto client = clients_.find(author.client);
+  auto newest =
+      client == clients_.end() ? std::make_shared<std::atomic<std::uint64_t>>(ticket) : client->second.newest_preview;
+  newest->store(ticket, std::memory_order_relaxed);
+  ask_desk(ticket, [=, edits = body.edits, based_on = body.based_on](Desk& desk) {
+    desk.preview(ticket, *newest, request, edits, based_on);
+  });
+}
+
+void Hub::refuse(std::uint64_t ticket, std::string_view code, std::string reason) {
+  const auto found = waiting_.find(ticket);
+  if (found == waiting_.end()) return;
+  const Waiting waiting = std::move(found->second);
+  waiting_.erase(found);
+  waiting.reply(refused_json({waiting.id, code, std::move(reason)}));
+}
+
+void Hub::set_editing(ClientId client, const Editing& editing) {
+  const auto found = clients_.find(client);
+  if (found == clients_.end()) return;
+  found->second.who.editing = editing.what;
+  tell_presence();
+}
+
+}  // namespace vigil::console

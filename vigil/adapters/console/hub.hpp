@@ -1,0 +1,185 @@
+#pragma once
+
+#include <atomic>
+#include <chrono>
+#include <cstdint>
+#include <deque>
+#include <functional>
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <unordered_map>
+#include <vector>
+
+#include "vigil/adapters/console/access.hpp"
+#include "vigil/adapters/console/client_message.hpp"
+#include "vigil/adapters/console/desk.hpp"
+#include "vigil/adapters/console/rate_limit.hpp"
+#include "vigil/adapters/console/server_messages.hpp"
+#include "vigil/adapters/console/trail_ring.hpp"
+
+namespace vigil::console {
+
+/// A connection, as the hub sees it. Neither call waits; both may be made after the connection broke.
+class ClientLine {
+ public:
+  /// Kinds of bytes of which only the newest counts.
+  enum class Latest : std::uint8_t { kSnapshot, kDensity, kPreview, kCoverage, kAge, kTrails, kStatus, kCount };
+
+  virtual ~ClientLine() = default;
+  /// Never dropped, in order.
+  virtual void say(SharedBytes text) = 0;
+  /// Replaces what of this kind still waits.
+  virtual void show(Latest kind, SharedBytes bytes) = 0;
+  /// After what was said.
+  virtual void close() = 0;
+};
+
+/// What the hub needs of the rest of the program.
+struct HubLinks {
+  std::function<std::chrono::nanoseconds()> now;  ///< monotonic
+  std::function<double()> wall_ms;                ///< since 1970
+  /// Lets the desk's thread do it; false where its queue is full.
+  std::function<bool(std::function<void(Desk&)>)> at_desk;
+};
+
+struct HubSetup {
+  std::string program;           ///< "vigil 0.1.0"
+  std::optional<Tokens> tokens;  ///< none: whoever comes may be a safety pilot
+  std::string recording_folder;  ///< empty: nothing is recorded
+};
+
+/// Everybody who looks at or commands the flight, and what they are told: the console's side of the program without its
+/// sockets. One thread, the sockets'; nothing in it waits.
+class Hub {
+ public:
+  using ClientId = std::uint32_t;
+  using Reply = std::function<void(const Json&)>;
+
+  Hub(HubSetup setup, HubLinks links);
+
+  ClientId connect(std::shared_ptr<ClientLine> line);
+  void disconnect(ClientId client);
+  /// A text message of a client, whatever is in it.
+  void receive(ClientId client, std::string_view text);
+  /// A message that cannot be one: too large, or binary.
+  void refuse_message(ClientId client, std::string_view code, std::string_view reason);
+  /// A command that came otherwise; `reply` is called once, now or later.
+  void command(const ClientMessage& message, Role role, const std::string& by, Reply reply);
+
+  /// From the desk.
+  void take(DeskNews news);
+  /// To be called every few milliseconds: passes on what happened, answers, and frames that are due.
+  void poll();
+  /// Says goodbye to everybody.
+  void end();
+
+  [[nodiscard]] std::optional<Role> role_for(std::string_view token) const;
+  [[nodiscard]] bool wants_login() const { return setup_.tokens.has_value(); }
+  [[nodiscard]] const std::string& program() const { return setup_.program; }
+  [[nodiscard]] std::size_t clients() const { return clients_.size(); }
+
+  // For REST: the newest of everything; null before there is any.
+  [[nodiscard]] Json state() const;
+  [[nodiscard]] const runtime::Mission* mission() const { return mission_ ? &*mission_ : nullptr; }
+  [[nodiscard]] std::uint64_t revision() const { return revision_; }
+
+ private:
+  struct Client {
+    Operator who;
+    std::shared_ptr<ClientLine> line;
+    std::chrono::nanoseconds connected_at{0};
+    bool has_said_hello = false;
+    RateLimit rate;
+    std::size_t refused_for_rate = 0;
+    /// The ticket of its newest preview; the desk looks at it, too.
+    std::shared_ptr<std::atomic<std::uint64_t>> newest_preview = std::make_shared<std::atomic<std::uint64_t>>(0);
+  };
+  /// A command that waits for its answer.
+  struct Waiting {
+    std::uint64_t id = 0;
+    std::string what;  ///< the message's type
+    std::string by;
+    Reply reply;
+    Answer answer;
+    std::vector<std::pair<std::string, std::string>> refused;
+    bool wants_revision = false;
+    bool is_at_control = false;                         ///< the control loop has it, and will answer
+    std::optional<std::chrono::nanoseconds> answer_by;  ///< then it is answered as pending
+    ClientId preview_for = 0;
+    std::string drones;  ///< in words, for the log
+  };
+  struct Author {
+    ClientId client = 0;
+    Role role = Role::kViewer;
+    std::string name;
+  };
+
+  void greet(Client& client, const Hello& hello);
+  void show_everything(Client& client);
+  void part_with(ClientId id, std::string_view code, std::string_view reason);
+  void execute(const ClientMessage& message, const Author& author, Reply reply);
+  std::uint64_t expect(const ClientMessage& message, const Author& author, Reply reply);
+  void dispatch(const ClientMessage& message, const Author& author, std::uint64_t ticket);
+  void wish(const DroneWish& wish, std::uint64_t ticket);
+  void submit(std::vector<runtime::LiveCommand> commands, std::uint64_t ticket);
+  void ask_desk(std::uint64_t ticket, std::function<void(Desk&)> task);
+  void refuse(std::uint64_t ticket, std::string_view code, std::string reason);
+  void preview(const PreviewDensity& body, const Author& author, std::uint64_t request, std::uint64_t ticket);
+  void wait_for_control(Waiting& waiting);
+  void set_editing(ClientId client, const Editing& editing);
+  void tell_presence();
+
+  void take(const FlightNews& news);
+  void give_up_waiting();
+  void take(const TargetsNews& news);
+  void take(const GroundNews& news);
+  void take(const DeskAnswer& news);
+  void hear(const runtime::LiveEvent& event);
+  void hear_swarm(const runtime::LiveEvent& event);
+  void hear_script(const runtime::LiveEvent& event);
+  void hear_answer(const runtime::LiveEvent& event);
+  void answer_pending(std::chrono::nanoseconds now);
+  void log(ConsoleEvent event);
+  void send_events();
+  void send_snapshot(std::chrono::nanoseconds now);
+  void send_status();
+  void drop_the_silent(std::chrono::nanoseconds now);
+  void say_to_all(const Json& json);
+  void show_to_all(ClientLine::Latest kind, const SharedBytes& bytes);
+  [[nodiscard]] std::string drone_id(std::size_t index) const;
+  [[nodiscard]] Json status() const;
+
+  HubSetup setup_;
+  HubLinks links_;
+  std::map<ClientId, Client> clients_;
+  ClientId next_client_ = 1;
+  std::unordered_map<std::uint64_t, Waiting> waiting_;
+  std::uint64_t next_ticket_ = 1;
+
+  std::shared_ptr<runtime::LiveMission> flight_;
+  std::unordered_map<std::string, std::size_t> drone_index_;
+  SharedBytes mission_message_;
+  SharedBytes targets_message_;
+  std::optional<runtime::Mission> mission_;
+  std::uint64_t revision_ = 0;
+  SharedBytes density_;
+  SharedBytes coverage_;
+  SharedBytes age_;
+  std::vector<runtime::AreaState> areas_;
+  std::optional<TrailRing> trails_;
+  std::optional<runtime::LiveFrame> frame_;
+  std::size_t frame_version_ = 0;
+  runtime::ClockState clock_;
+  std::size_t clock_version_ = 0;
+  bool waits_for_resume_ = false;
+  std::deque<Json> events_;  ///< the newest
+  std::vector<Json> new_events_;
+  std::uint64_t next_event_ = 1;
+  std::chrono::nanoseconds next_snapshot_{0};
+  std::chrono::nanoseconds next_status_{0};
+};
+
+}  // namespace vigil::console

@@ -1,0 +1,365 @@
+// What the hub hears from the desk and from the flight, and passes on.
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "vigil/adapters/console/hub.hpp"
+#include "vigil/runtime/mission_description.hpp"
+#include "vigil/runtime/mission_setup.hpp"
+#include "vigil/swarm/names.hpp"
+
+namespace vigil::console {
+namespace {
+
+using namespace std::chrono_literals;
+using runtime::LiveEvent;
+using runtime::Severity;
+
+constexpr auto kSnapshotEvery = 50ms;
+constexpr auto kStatusEvery = 500ms;
+constexpr auto kHelloWithin = 10s;
+constexpr std::size_t kKeptEvents = 200;
+/// Refusals of single drones that an answer lists.
+constexpr std::size_t kMostRefusedDrones = 32;
+
+SharedBytes shared(std::string bytes) { return std::make_shared<const std::string>(std::move(bytes)); }
+
+double milliseconds(std::chrono::nanoseconds time) { return std::chrono::duration<double, std::milli>(time).count(); }
+
+bool concerns_drone(swarm::CommandKind wish) {
+  return wish != swarm::CommandKind::kSetTarget && wish != swarm::CommandKind::kStartAfresh;
+}
+
+bool is_logged_by_the_flight(std::string_view what) {
+  return what != "edit" && what != "undo" && what != "redo" && what != "load_mission" && what != "preview_density";
+}
+
+}  // namespace
+
+std::string Hub::drone_id(std::size_t index) const {
+  const std::vector<runtime::DroneEntry>& drones = flight_->mission().drones;
+  return index < drones.size() ? drones[index].id : std::string();
+}
+
+void Hub::take(DeskNews news) {
+  if (const auto* flight = std::get_if<FlightNews>(&news)) take(*flight);
+  if (const auto* targets = std::get_if<TargetsNews>(&news)) take(*targets);
+  if (const auto* ground = std::get_if<GroundNews>(&news)) take(*ground);
+  if (const auto* answer = std::get_if<DeskAnswer>(&news)) take(*answer);
+  if (auto* refusal = std::get_if<DeskRefusal>(&news))
+    refuse(refusal->ticket, refusal->code, std::move(refusal->reason));
+  if (const auto* acceptance = std::get_if<DeskAcceptance>(&news)) {
+    const auto found = waiting_.find(acceptance->ticket);
+    if (found != waiting_.end()) wait_for_control(found->second);
+  }
+  if (const auto* trouble = std::get_if<DeskTrouble>(&news))
+    log({.source = "program", .what = "trouble", .words = {Severity::kWarning, trouble->text, "", ""}});
+}
+
+/// What was asked of a flight that has ended will not be answered by it.
+void Hub::give_up_waiting() {
+  std::vector<Waiting> lost;
+  for (auto it = waiting_.begin(); it != waiting_.end();) {
+    if (it->second.is_at_control) {
+      lost.push_back(std::move(it->second));
+      it = waiting_.erase(it);
+    } else {
+      ++it;
+    }
+  }
+  for (const Waiting& waiting : lost)
+    if (!waiting.answer.is_pending)
+      waiting.reply(refused_json({waiting.id, "not_now", "another mission was loaded meanwhile"}));
+}
+
+void Hub::take(const FlightNews& news) {
+  give_up_waiting();
+  flight_ = news.flight;
+  mission_message_ = news.mission;
+  targets_message_.reset();
+  density_.reset();
+  coverage_.reset();
+  age_.reset();
+  areas_.clear();
+  frame_.emplace(flight_->mission().drones.size());
+  frame_version_ = 0;
+  clock_version_ = 0;
+  trails_.emplace(flight_->mission().drones.size());
+  drone_index_.clear();
+  for (std::size_t i = 0; i < flight_->mission().drones.size(); ++i) drone_index_.emplace(drone_id(i), i);
+  waits_for_resume_ = news.is_restored;
+  for (const auto& [id, client] : clients_)
+    if (client.has_said_hello) client.line->say(mission_message_);
+  runtime::EventWords words{Severity::kInfo, fmt::format("mission {} begins", flight_->mission().name), "", ""};
+  if (news.is_restored)
+    words = {Severity::kWarning,
+             fmt::format("mission {} goes on after a restart of the program", flight_->mission().name),
+             "every drone in the air holds", "look whether all is well, then resume"};
+  log({.source = "program", .what = news.is_restored ? "restored" : "begins", .words = std::move(words)});
+}
+
+void Hub::take(const TargetsNews& news) {
+  targets_message_ = news.targets;
+  density_ = news.density;
+  mission_ = news.mission;
+  const bool is_change = !news.what.empty();
+  revision_ = news.revision;
+  for (const auto& [id, client] : clients_)
+    if (client.has_said_hello) client.line->say(targets_message_);
+  show_to_all(ClientLine::Latest::kDensity, density_);
+  if (is_change)
+    log({.source = news.by == "mission" ? "mission" : "operator",
+         .what = "edit",
+         .by = news.by,
+         .words = {Severity::kInfo, news.what, "", ""}});
+}
+
+void Hub::take(const GroundNews& news) {
+  areas_ = news.areas;
+  coverage_ = news.coverage;
+  age_ = news.age;
+  show_to_all(ClientLine::Latest::kCoverage, coverage_);
+  show_to_all(ClientLine::Latest::kAge, age_);
+  for (const runtime::DeadlineChange& change : news.deadlines) {
+    runtime::EventWords words{Severity::kInfo, fmt::format("{} is seen in time again", change.what.name), "", ""};
+    if (change.is_overdue)
+      words = {Severity::kAlarm,
+               fmt::format("{}: part of it unseen for {:.0f} s, longer than {:.6g} s", change.what.name, change.age_s,
+                           change.deadline_s),
+               "", "give it more weight, or the swarm more drones"};
+    log({.tick = news.tick,
+         .time_s = news.time_s,
+         .source = "swarm",
+         .what = change.is_overdue ? "overdue" : "seen_again",
+         .words = std::move(words)});
+  }
+}
+
+void Hub::take(const DeskAnswer& news) {
+  const auto found = waiting_.find(news.ticket);
+  if (found == waiting_.end()) return;
+  const Waiting waiting = std::move(found->second);
+  waiting_.erase(found);
+  const auto client = clients_.find(waiting.preview_for);
+  if (news.preview && client != clients_.end()) client->second.line->show(ClientLine::Latest::kPreview, news.preview);
+  waiting.reply(ack_json(waiting.id, {frame_ ? frame_->snapshot.tick : 0, false, news.revision, {}}));
+}
+
+void Hub::log(ConsoleEvent event) {
+  event.number = next_event_++;
+  event.wall_ms = links_.wall_ms();
+  if (event.tick == 0 && frame_) event.tick = frame_->snapshot.tick;
+  if (event.time_s == 0.0 && frame_) event.time_s = frame_->snapshot.time_s;
+  if (flight_ && flight_->recorder() != nullptr && event.source != "mission")
+    flight_->recorder()->log({event.time_s, event.source, event.what, event.drone, event.words.text});
+  events_.push_back(event_json(event));
+  new_events_.push_back(events_.back());
+  if (events_.size() > kKeptEvents) events_.pop_front();
+}
+
+void Hub::send_events() {
+  if (new_events_.empty()) return;
+  // An edit of the file's size, or a swarm that drops out, must not make one huge message.
+  for (std::size_t first = 0; first < new_events_.size(); first += kKeptEvents) {
+    const auto begin = new_events_.begin() + static_cast<std::ptrdiff_t>(first);
+    const auto end =
+        new_events_.begin() + static_cast<std::ptrdiff_t>(std::min(first + kKeptEvents, new_events_.size()));
+    say_to_all(events_json({begin, end}));
+  }
+  new_events_.clear();
+}
+
+void Hub::hear(const LiveEvent& event) {
+  switch (event.kind) {
+    case LiveEvent::Kind::kSwarm:
+      return hear_swarm(event);
+    case LiveEvent::Kind::kScript:
+      return hear_script(event);
+    case LiveEvent::Kind::kAnswer:
+      return hear_answer(event);
+    case LiveEvent::Kind::kRefusal:
+      break;
+  }
+  const auto found = waiting_.find(event.ticket);
+  if (found == waiting_.end() || found->second.refused.size() >= kMostRefusedDrones) return;
+  const std::string id = drone_id(event.event.drone.index());
+  found->second.refused.emplace_back(id, runtime::refusal_words(id, event.event.wish, event.drone));
+}
+
+void Hub::hear_swarm(const LiveEvent& event) {
+  const std::string id = drone_id(event.event.drone.index());
+  ConsoleEvent told{.tick = event.tick, .time_s = event.time_s, .source = "swarm", .drone = id};
+  if (event.event.kind == swarm::EventKind::kActivityChanged) {
+    told.what = swarm::name_of(event.event.after);
+    told.was = swarm::name_of(event.event.before);
+    told.words = runtime::words_for(id, event.event.after, event.drone, event.active, frame_->snapshot.drones.size());
+  } else if (event.event.kind == swarm::EventKind::kWishRefused && concerns_drone(event.event.wish)) {
+    told.what = "refused";
+    told.words = {Severity::kInfo, runtime::refusal_words(id, event.event.wish, event.drone), "", ""};
+  } else {
+    return;
+  }
+  log(std::move(told));
+}
+
+void Hub::hear_script(const LiveEvent& event) {
+  const runtime::EventEntry& entry = flight_->mission().simulation.events.at(event.index);
+  const std::string what(runtime::name_of(entry.what));
+  if (runtime::edits_targets(entry.what)) {
+    const std::uint32_t epoch = flight_->epoch();
+    const std::size_t index = event.index;
+    if (!links_.at_desk([=](Desk& desk) { desk.play(epoch, index); }))
+      log({.source = "program",
+           .what = "trouble",
+           .words = {Severity::kWarning, "an event of the mission file was lost: the desk is too busy", "", ""}});
+    return;
+  }
+  log({.tick = event.tick,
+       .time_s = event.time_s,
+       .source = runtime::is_of_the_world(entry.what) ? "world" : "mission",
+       .what = what,
+       .drone = entry.drone,
+       .words = {Severity::kInfo, fmt::format("by the mission file: {} {}", what, entry.drone), "", ""}});
+}
+
+void Hub::hear_answer(const LiveEvent& event) {
+  const auto found = waiting_.find(event.ticket);
+  if (found == waiting_.end()) return;
+  Waiting waiting = std::move(found->second);
+  waiting_.erase(found);
+  const bool is_pending_answered = waiting.answer.is_pending;
+  if (event.accepted == 0 && event.refused > 0) {
+    const std::string reason = waiting.refused.empty() ? "no drone could follow" : waiting.refused.front().second;
+    if (is_pending_answered)
+      log({.source = "swarm", .what = "refused", .by = waiting.by, .words = {Severity::kWarning, reason, "", ""}});
+    else
+      waiting.reply(refused_json({waiting.id, "not_now", reason}));
+    return;
+  }
+  if (!is_pending_answered) {
+    Answer answer{event.tick, false, {}, {}};
+    if (waiting.wants_revision) answer.revision = event.revision;
+    if (waiting.drones != "all") answer.refused_drones = std::move(waiting.refused);
+    waiting.reply(ack_json(waiting.id, answer));
+  }
+  if (waiting.what == "resume" || waiting.what == "take_off") waits_for_resume_ = false;
+  if (is_logged_by_the_flight(waiting.what))
+    log({.tick = event.tick,
+         .time_s = event.time_s,
+         .source = "operator",
+         .what = waiting.what,
+         .drone = waiting.drones,
+         .by = waiting.by,
+         .words = {
+             waiting.what == "emergency_stop" ? Severity::kAlarm : Severity::kInfo,
+             fmt::format("{}: {}{}{}", waiting.by, waiting.what, waiting.drones.empty() ? "" : " ", waiting.drones), "",
+             ""}});
+}
+
+void Hub::answer_pending(std::chrono::nanoseconds now) {
+  for (auto& [ticket, waiting] : waiting_) {
+    if (!waiting.answer_by || now < *waiting.answer_by) continue;
+    waiting.answer_by.reset();
+    waiting.answer.is_pending = true;
+    Answer answer{frame_->snapshot.tick + 1, true, {}, {}};
+    if (waiting.wants_revision) answer.revision = revision_;
+    waiting.reply(ack_json(waiting.id, answer));
+  }
+}
+
+void Hub::drop_the_silent(std::chrono::nanoseconds now) {
+  std::vector<ClientId> silent;
+  for (const auto& [id, client] : clients_)
+    if (!client.has_said_hello && now - client.connected_at > kHelloWithin) silent.push_back(id);
+  for (const ClientId id : silent) part_with(id, "no_hello", "nobody said hello");
+}
+
+void Hub::poll() {
+  const std::chrono::nanoseconds now = links_.now();
+  drop_the_silent(now);
+  if (!flight_) return;
+  flight_->loop().read(clock_, clock_version_);
+  if (now >= next_snapshot_) send_snapshot(now);
+  for (const LiveEvent& event : flight_->loop().take_events()) hear(event);
+  answer_pending(now);
+  send_events();
+  if (now >= next_status_) {
+    next_status_ = now + kStatusEvery;
+    send_status();
+  }
+}
+
+void Hub::send_snapshot(std::chrono::nanoseconds now) {
+  next_snapshot_ = now + kSnapshotEvery;
+  const bool is_new = flight_->loop().read(*frame_, frame_version_);
+  if (!frame_->has_ticked) return;
+  if (is_new) trails_->add(frame_->snapshot);
+  const std::chrono::nanoseconds age = now - frame_->computed_at;
+  double worst_age_s = std::numeric_limits<double>::quiet_NaN();
+  for (const runtime::AreaState& area : areas_) worst_age_s = std::fmax(worst_age_s, area.age_s);
+  const runtime::QueuedRecorder* recorder = flight_->recorder();
+  const SnapshotContext context{
+      .epoch = flight_->epoch(),
+      .wall_ms = links_.wall_ms() - milliseconds(age),
+      .age_s = std::chrono::duration<double>(age).count(),
+      .worst_age_s = worst_age_s,
+      .speed_limit_m_s = flight_->mission().control.speed_limit_m_s,
+      .lost_ticks = recorder == nullptr ? 0 : static_cast<std::uint32_t>(recorder->lost_ticks())};
+  show_to_all(ClientLine::Latest::kSnapshot, shared(snapshot_frame(*frame_, clock_, context)));
+}
+
+Json Hub::status() const {
+  StatusContext context{.epoch = flight_->epoch(),
+                        .recording = {},
+                        .lost_events = flight_->loop().lost_events(),
+                        .clients = clients_.size(),
+                        .lateness = clock_.lateness,
+                        .waits_for_resume = waits_for_resume_};
+  if (const runtime::QueuedRecorder* recorder = flight_->recorder())
+    context.recording = RecordingState{setup_.recording_folder, recorder->kept_ticks(), recorder->lost_ticks()};
+  return status_json(areas_, context);
+}
+
+void Hub::send_status() { show_to_all(ClientLine::Latest::kStatus, shared(in_text(status()))); }
+
+Json Hub::state() const {
+  if (!flight_ || !frame_->has_ticked) return Json(nullptr);
+  const swarm::Snapshot& snapshot = frame_->snapshot;
+  const field::WorldFrame world = runtime::world_frame(flight_->mission());
+  Json drones = Json::array();
+  for (std::size_t i = 0; i < snapshot.drones.size(); ++i) {
+    const swarm::DroneSnapshot& drone = snapshot.drones[i];
+    const Vec2 place = world.point_to_world(drone.position);
+    const Vec2 velocity = world.vector_to_world(drone.velocity);
+    drones.push_back({{"id", drone_id(i)},
+                      {"mode", swarm::name_of(drone.mode)},
+                      {"activity", swarm::name_of(drone.activity)},
+                      {"position_m", {place.x(), place.y()}},
+                      {"height_m", drone.height_m},
+                      {"velocity_m_s", {velocity.x(), velocity.y()}},
+                      {"age_s", drone.age_s},
+                      {"link_age_s", drone.link_age_s},
+                      {"battery", drone.battery}});
+  }
+  Json state{{"epoch", flight_->epoch()},
+             {"revision", revision_},
+             {"tick", snapshot.tick},
+             {"time_s", snapshot.time_s},
+             {"speed", clock_.speed},
+             {"is_paused", clock_.is_paused},
+             {"has_metric", snapshot.has_metric},
+             {"metric", snapshot.metric},
+             {"metric_percent", snapshot.metric_percent},
+             {"active", snapshot.active},
+             {"idle", swarm::name_of(snapshot.idle)},
+             {"drones", std::move(drones)}};
+  const Json more = status();
+  for (const char* member : {"areas", "recording", "clients", "lateness_us", "waits_for_resume"})
+    state[member] = more.at(member);
+  return state;
+}
+
+}  // namespace vigil::console

@@ -1,0 +1,462 @@
+#include "vigil/adapters/console/server.hpp"
+
+#include <array>
+#include <chrono>
+#include <exception>
+#include <utility>
+
+#include <boost/asio/io_context.hpp>
+#include <boost/asio/ip/tcp.hpp>
+#include <boost/asio/ssl/context.hpp>
+#include <boost/asio/steady_timer.hpp>
+#include <boost/beast/core.hpp>
+#include <boost/beast/http.hpp>
+#include <boost/beast/ssl.hpp>
+#include <boost/beast/websocket.hpp>
+#include <boost/beast/websocket/ssl.hpp>
+#include <fmt/format.h>
+
+#include "vigil/adapters/console/desk_thread.hpp"
+#include "vigil/adapters/console/hub.hpp"
+#include "vigil/adapters/console/outbound.hpp"
+#include "vigil/adapters/console/rest.hpp"
+
+namespace vigil::console {
+namespace {
+
+namespace beast = boost::beast;
+namespace http = beast::http;
+namespace websocket = beast::websocket;
+namespace net = boost::asio;
+using tcp = net::ip::tcp;
+using Error = boost::system::error_code;
+using namespace std::chrono_literals;
+
+using PlainStream = beast::tcp_stream;
+using TlsStream = beast::ssl_stream<beast::tcp_stream>;
+using Request = http::request<http::string_body>;
+
+constexpr auto kHttpTimeout = 30s;
+constexpr auto kPollEvery = 5ms;
+constexpr auto kOverEvery = 100ms;
+constexpr std::uint32_t kMostHeaderBytes = 16 * 1024;
+constexpr int kSendBufferBytes = 128 * 1024;  // what the kernel holds back from a slow client is old when it arrives
+constexpr std::string_view kProtocol = "vigil.v1";
+
+/// What a connection needs of the server; it outlives all of them.
+struct Host {
+  Hub& hub;
+  Rest& rest;
+  const Gate& gate;
+  std::size_t& connections;
+};
+
+/// Counts a connection for as long as it lives.
+class Seat {
+ public:
+  explicit Seat(std::size_t& taken) : taken_(&taken) { ++*taken_; }
+  Seat(Seat&& other) noexcept : taken_(std::exchange(other.taken_, nullptr)) {}
+  Seat& operator=(Seat&&) = delete;
+  ~Seat() {
+    if (taken_ != nullptr) --*taken_;
+  }
+
+ private:
+  std::size_t* taken_;
+};
+
+std::string header(const Request& request, http::field field) {
+  const auto found = request.find(field);
+  return found == request.end() ? std::string() : std::string(found->value());
+}
+
+bool offers_protocol(const Request& request) {
+  for (const auto& offered : http::token_list(request[http::field::sec_websocket_protocol]))
+    if (std::string_view(offered.data(), offered.size()) == kProtocol) return true;
+  return false;
+}
+
+http::response<http::string_body> response_of(const HttpAnswer& answer, const Request& request) {
+  http::response<http::string_body> response(static_cast<http::status>(answer.status), request.version());
+  response.set(http::field::server, "vigil");
+  response.set(http::field::content_type, answer.content_type);
+  for (const auto& [name, value] : security_headers()) response.set(name, value);
+  for (const auto& [name, value] : answer.headers) response.set(name, value);
+  response.keep_alive(request.keep_alive());
+  if (answer.body) response.body() = *answer.body;
+  response.prepare_payload();
+  if (request.method() == http::verb::head) response.body().clear();
+  return response;
+}
+
+HttpAnswer upgrade_refusal(int status, std::string text) {
+  return {status, "text/plain; charset=utf-8", std::make_shared<const std::string>(std::move(text) + "\n"), {}};
+}
+
+/// A WebSocket of one client. The sockets' thread only.
+template <typename Stream>
+class Talk final : public ClientLine, public std::enable_shared_from_this<Talk<Stream>> {
+ public:
+  Talk(Stream stream, Host& host, Seat seat) : socket_(std::move(stream)), host_(host), seat_(std::move(seat)) {}
+
+  void begin(const Request& request) {
+    websocket::stream_base::timeout timeout{};
+    timeout.handshake_timeout = 10s;
+    timeout.idle_timeout = 30s;
+    timeout.keep_alive_pings = true;
+    socket_.set_option(timeout);
+    socket_.set_option(websocket::stream_base::decorator([](websocket::response_type& response) {
+      response.set(http::field::server, "vigil");
+      response.set(http::field::sec_websocket_protocol, kProtocol);
+    }));
+    socket_.read_message_max(kMostMessageBytes);
+    socket_.auto_fragment(false);
+    beast::get_lowest_layer(socket_).expires_never();
+    socket_.async_accept(request, [self = this->shared_from_this()](Error error) {
+      if (!error) self->join();
+    });
+  }
+
+  void say(SharedBytes text) override {
+    if (is_closing_ || is_broken_) return;
+    if (!outbound_.say(std::move(text))) return break_off();
+    send_next();
+  }
+
+  void show(Latest kind, SharedBytes bytes) override {
+    if (is_closing_ || is_broken_) return;
+    outbound_.show(kind, std::move(bytes));
+    send_next();
+  }
+
+  void close() override {
+    is_closing_ = true;
+    send_next();
+  }
+
+ private:
+  void join() {
+    client_ = host_.hub.connect(this->shared_from_this());
+    read_next();
+  }
+
+  void read_next() {
+    socket_.async_read(received_, [self = this->shared_from_this()](Error error, std::size_t) {
+      if (error || self->is_broken_) return self->leave();
+      self->take();
+    });
+  }
+
+  void take() {
+    if (socket_.got_text()) {
+      const auto bytes = received_.data();
+      host_.hub.receive(client_, {static_cast<const char*>(bytes.data()), bytes.size()});
+    } else {
+      host_.hub.refuse_message(client_, "malformed", "messages are JSON text, not bytes");
+    }
+    received_.consume(received_.size());
+    if (received_.capacity() > kKeptBuffer) received_.shrink_to_fit();
+    read_next();
+  }
+
+  void leave() {
+    is_broken_ = true;
+    if (client_ != 0) host_.hub.disconnect(std::exchange(client_, 0));
+  }
+
+  /// One message at a time; what comes meanwhile waits in outbound_.
+  void send_next() {
+    if (is_sending_ || is_broken_) return;
+    std::optional<Outbound::Message> message = outbound_.next();
+    if (!message) return is_closing_ ? say_goodbye() : void();
+    is_sending_ = true;
+    socket_.text(message->is_text);
+    const SharedBytes bytes = message->bytes;
+    socket_.async_write(net::buffer(*bytes), [self = this->shared_from_this(), bytes](Error error, std::size_t) {
+      self->is_sending_ = false;
+      if (error) return self->leave();
+      self->send_next();
+    });
+  }
+
+  void say_goodbye() {
+    is_broken_ = true;
+    socket_.async_close(websocket::close_code::normal, [self = this->shared_from_this()](Error) {});
+  }
+
+  /// It does not read: no polite word would arrive.
+  void break_off() {
+    is_broken_ = true;
+    beast::get_lowest_layer(socket_).close();
+  }
+
+  static constexpr std::size_t kKeptBuffer = 64 * 1024;
+
+  websocket::stream<Stream> socket_;
+  Host& host_;
+  Seat seat_;
+  beast::flat_buffer received_;
+  Outbound outbound_;
+  Hub::ClientId client_ = 0;
+  bool is_sending_ = false;
+  bool is_closing_ = false;
+  bool is_broken_ = false;
+};
+
+/// A connection that speaks HTTP, until it ends or becomes a WebSocket. The sockets' thread only.
+template <typename Stream>
+class Visit : public std::enable_shared_from_this<Visit<Stream>> {
+ public:
+  Visit(Stream stream, Host& host, Seat seat) : stream_(std::move(stream)), host_(host), seat_(std::move(seat)) {}
+
+  void begin() {
+    if constexpr (std::is_same_v<Stream, TlsStream>) {
+      beast::get_lowest_layer(stream_).expires_after(kHttpTimeout);
+      stream_.async_handshake(net::ssl::stream_base::server, [self = this->shared_from_this()](Error error) {
+        if (!error) self->read_next();
+      });
+    } else {
+      read_next();
+    }
+  }
+
+ private:
+  void read_next() {
+    parser_.emplace();
+    parser_->header_limit(kMostHeaderBytes);
+    parser_->body_limit(kMostMessageBytes);
+    beast::get_lowest_layer(stream_).expires_after(kHttpTimeout);
+    http::async_read(stream_, buffer_, *parser_, [self = this->shared_from_this()](Error error, std::size_t) {
+      if (error == http::error::body_limit || error == http::error::header_limit)
+        return self->send(upgrade_refusal(413, "that is too large"), false);
+      if (error) return self->finish();
+      self->take();
+    });
+  }
+
+  void take() {
+    request_ = parser_->release();
+    if (websocket::is_upgrade(request_)) return upgrade();
+    const HttpRequest request{std::string(request_.method_string()),
+                              std::string(request_.target()),
+                              header(request_, http::field::host),
+                              header(request_, http::field::origin),
+                              header(request_, http::field::authorization),
+                              header(request_, http::field::content_type),
+                              header(request_, http::field::accept),
+                              header(request_, http::field::if_none_match),
+                              std::move(request_.body())};
+    // The answer may come later, when the connection is gone; then nobody is told.
+    host_.rest.answer(request, [self = this->shared_from_this()](const HttpAnswer& answer) {
+      self->send(answer, self->request_.keep_alive());
+    });
+  }
+
+  void upgrade() {
+    const std::string host = header(request_, http::field::host);
+    if (!host_.gate.admits_host(host)) return send(upgrade_refusal(421, "this name is not one of the server's"), false);
+    if (!host_.gate.admits_origin(header(request_, http::field::origin), host))
+      return send(upgrade_refusal(403, "another site's page may not come in"), false);
+    if (request_.target() != "/live") return send(upgrade_refusal(404, "the WebSocket is at /live"), false);
+    if (!offers_protocol(request_))
+      return send(upgrade_refusal(400, fmt::format("this server speaks {}", kProtocol)), false);
+    std::make_shared<Talk<Stream>>(std::move(stream_), host_, std::move(seat_))->begin(request_);
+  }
+
+  void send(const HttpAnswer& answer, bool goes_on) {
+    response_ = response_of(answer, request_);
+    if (!goes_on) response_.keep_alive(false);
+    beast::get_lowest_layer(stream_).expires_after(kHttpTimeout);
+    http::async_write(stream_, response_, [self = this->shared_from_this(), goes_on](Error error, std::size_t) {
+      if (error || !goes_on) return self->finish();
+      self->read_next();
+    });
+  }
+
+  void finish() {
+    Error ignored;
+    beast::get_lowest_layer(stream_).socket().shutdown(tcp::socket::shutdown_both, ignored);
+  }
+
+  Stream stream_;
+  Host& host_;
+  Seat seat_;
+  beast::flat_buffer buffer_{kMostMessageBytes + kMostHeaderBytes};
+  std::optional<http::request_parser<http::string_body>> parser_;
+  Request request_;
+  http::response<http::string_body> response_;
+};
+
+std::chrono::nanoseconds monotonic_now() { return std::chrono::steady_clock::now().time_since_epoch(); }
+
+double wall_ms_now() {
+  return std::chrono::duration<double, std::milli>(std::chrono::system_clock::now().time_since_epoch()).count();
+}
+
+tcp::endpoint endpoint_of(const ServerOptions& options) {
+  Error error;
+  const auto address = net::ip::make_address(options.address == "localhost" ? "127.0.0.1" : options.address, error);
+  if (error)
+    throw SetupError(
+        fmt::format("--address {}: is no address; give for example 127.0.0.1, or 0.0.0.0 for all of this "
+                    "machine's",
+                    options.address));
+  return {address, options.port};
+}
+
+std::optional<net::ssl::context> tls_of(const ServerOptions& options) {
+  if (options.certificate.empty()) return std::nullopt;
+  net::ssl::context context(net::ssl::context::tls_server);
+  context.set_options(net::ssl::context::default_workarounds | net::ssl::context::no_tlsv1 |
+                      net::ssl::context::no_tlsv1_1 | net::ssl::context::single_dh_use);
+  Error error;
+  context.use_certificate_chain_file(options.certificate.string(), error);
+  if (error)
+    throw SetupError(fmt::format("--certificate {}: cannot be used ({}); give a PEM file of the chain",
+                                 options.certificate.string(), error.message()));
+  context.use_private_key_file(options.key.string(), net::ssl::context::pem, error);
+  if (error)
+    throw SetupError(fmt::format("--key {}: cannot be used ({}); give the certificate's PEM key", options.key.string(),
+                                 error.message()));
+  return context;
+}
+
+}  // namespace
+
+class Server::Sockets {
+ public:
+  Sockets(const ServerOptions& options, Desk::MakeFlight make_flight, std::shared_ptr<runtime::FlightStore> store)
+      : page_(options.page),
+        gate_(options.address, options.names),
+        tls_(tls_of(options)),
+        hub_({options.program, options.tokens, options.recording_folder},
+             {monotonic_now, wall_ms_now,
+              [this](std::function<void(Desk&)> task) { return desk_thread_ && desk_thread_->post(std::move(task)); }}),
+        rest_(hub_, gate_, page_),
+        desk_(
+            std::move(make_flight), [this](DeskNews news) { tell_hub(std::move(news)); }, std::move(store)),
+        address_(options.address) {
+    listen(endpoint_of(options));
+  }
+
+  [[nodiscard]] std::uint16_t port() const { return acceptor_.local_endpoint().port(); }
+
+  [[nodiscard]] std::string url() const {
+    const bool is_v6 = address_.find(':') != std::string::npos;
+    return fmt::format("{}://{}{}{}:{}/", tls_ ? "https" : "http", is_v6 ? "[" : "", address_, is_v6 ? "]" : "",
+                       port());
+  }
+
+  void run(const runtime::Mission& mission, const runtime::SavedFlight* saved, const std::function<bool()>& is_over) {
+    desk_.begin(mission, saved);  // before its thread is there: what it throws is the caller's
+    desk_thread_.emplace(desk_, [this](std::string text) { tell_hub(DeskTrouble{std::move(text)}); });
+    accept_next();
+    poll();
+    ask_whether(is_over);
+    context_.run();
+    desk_thread_.reset();
+    desk_.save();
+  }
+
+ private:
+  void listen(const tcp::endpoint& endpoint) {
+    Error error;
+    acceptor_.open(endpoint.protocol(), error);
+    if (!error) acceptor_.set_option(net::socket_base::reuse_address(true), error);
+    if (!error) acceptor_.bind(endpoint, error);
+    if (!error) acceptor_.listen(net::socket_base::max_listen_connections, error);
+    if (error)
+      throw SetupError(fmt::format("{}:{}: cannot listen there ({}); choose another --port, or --port 0 for a free one",
+                                   endpoint.address().to_string(), endpoint.port(), error.message()));
+  }
+
+  void accept_next() {
+    acceptor_.async_accept([this](Error error, tcp::socket socket) {
+      if (!acceptor_.is_open()) return;
+      if (!error && connections_ < kMostConnections) welcome(std::move(socket));
+      if (error) return wait_to_accept();
+      accept_next();
+    });
+  }
+
+  /// Out of file descriptors, say: what comes waits in the kernel's queue.
+  void wait_to_accept() {
+    accept_timer_.expires_after(100ms);
+    accept_timer_.async_wait([this](Error error) {
+      if (!error) accept_next();
+    });
+  }
+
+  void welcome(tcp::socket socket) {
+    Error ignored;
+    socket.set_option(tcp::no_delay(true), ignored);
+    socket.set_option(net::socket_base::send_buffer_size(kSendBufferBytes), ignored);
+    Seat seat(connections_);
+    if (tls_)
+      std::make_shared<Visit<TlsStream>>(TlsStream(std::move(socket), *tls_), host_, std::move(seat))->begin();
+    else
+      std::make_shared<Visit<PlainStream>>(PlainStream(std::move(socket)), host_, std::move(seat))->begin();
+  }
+
+  void tell_hub(DeskNews news) {
+    net::post(context_, [this, news = std::make_shared<DeskNews>(std::move(news))] { hub_.take(std::move(*news)); });
+  }
+
+  void poll() {
+    hub_.poll();
+    poll_timer_.expires_after(kPollEvery);
+    poll_timer_.async_wait([this](Error error) {
+      if (!error) poll();
+    });
+  }
+
+  void ask_whether(const std::function<bool()>& is_over) {
+    if (is_over()) return end();
+    over_timer_.expires_after(kOverEvery);
+    over_timer_.async_wait([this, is_over](Error error) {
+      if (!error) ask_whether(is_over);
+    });
+  }
+
+  /// Says goodbye, gives that a moment, and stops.
+  void end() {
+    Error ignored;
+    acceptor_.close(ignored);
+    poll_timer_.cancel();
+    hub_.end();
+    over_timer_.expires_after(kOverEvery);
+    over_timer_.async_wait([this](Error) { context_.stop(); });
+  }
+
+  Page page_;
+  Gate gate_;
+  std::optional<net::ssl::context> tls_;
+  std::size_t connections_ = 0;  // outlives the connections, which the context keeps
+  net::io_context context_{1};
+  tcp::acceptor acceptor_{context_};
+  net::steady_timer accept_timer_{context_};
+  net::steady_timer poll_timer_{context_};
+  net::steady_timer over_timer_{context_};
+  Hub hub_;
+  Rest rest_;
+  Host host_{hub_, rest_, gate_, connections_};
+  Desk desk_;
+  std::optional<DeskThread> desk_thread_;
+  std::string address_;
+};
+
+Server::Server(const ServerOptions& options, Desk::MakeFlight make_flight, std::shared_ptr<runtime::FlightStore> store)
+    : sockets_(std::make_unique<Sockets>(options, std::move(make_flight), std::move(store))) {}
+
+Server::~Server() = default;
+
+std::uint16_t Server::port() const { return sockets_->port(); }
+
+std::string Server::url() const { return sockets_->url(); }
+
+void Server::run(const runtime::Mission& mission, const runtime::SavedFlight* saved,
+                 const std::function<bool()>& is_over) {
+  sockets_->run(mission, saved, is_over);
+}
+
+}  // namespace vigil::console

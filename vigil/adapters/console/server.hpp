@@ -1,0 +1,54 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "vigil/adapters/console/access.hpp"
+#include "vigil/adapters/console/desk.hpp"
+
+namespace vigil::console {
+
+struct ServerOptions {
+  std::string address = "127.0.0.1";
+  std::uint16_t port = 8080;          ///< 0: any that is free
+  std::vector<std::string> names;     ///< more names by which browsers come here
+  std::optional<Tokens> tokens;       ///< precondition: there where the address is not loopback
+  std::filesystem::path certificate;  ///< PEM; empty: no TLS
+  std::filesystem::path key;
+  std::filesystem::path page;  ///< the folder of the built page
+  std::string program;         ///< "vigil 0.1.0"
+  std::string recording_folder;
+};
+
+/// The console's server: HTTP and WebSockets for whoever looks at a flight, and the desk behind it. Beside the control
+/// thread of the flight it has two: the sockets' (the one that calls run()) and the desk's.
+class Server {
+ public:
+  /// At most so many connections at a time; more are closed at once.
+  static constexpr std::size_t kMostConnections = 256;
+
+  /// Listens at once. store: null where nothing is kept. Throws SetupError.
+  Server(const ServerOptions& options, Desk::MakeFlight make_flight, std::shared_ptr<runtime::FlightStore> store);
+  ~Server();
+  Server(const Server&) = delete;
+  Server& operator=(const Server&) = delete;
+
+  [[nodiscard]] std::uint16_t port() const;
+  /// "http://127.0.0.1:8080/"
+  [[nodiscard]] std::string url() const;
+
+  /// Flies the mission and serves until `is_over` says so, which is asked a few times a second. saved: what an earlier
+  /// run left, or null. Whatever making the flight throws.
+  void run(const runtime::Mission& mission, const runtime::SavedFlight* saved, const std::function<bool()>& is_over);
+
+ private:
+  class Sockets;
+  std::unique_ptr<Sockets> sockets_;
+};
+
+}  // namespace vigil::console

@@ -1,0 +1,156 @@
+#include "vigil/adapters/console/server_messages.hpp"
+
+#include "vigil/adapters/console/edit_json.hpp"
+#include "vigil/adapters/console/mission_json.hpp"
+
+namespace vigil::console {
+namespace {
+
+template <typename Entries>
+Json list_of(const Entries& entries) {
+  Json list = Json::array();
+  for (const auto& entry : entries) list.push_back(to_json(entry));
+  return list;
+}
+
+Json or_null(const std::optional<double>& value) { return value ? Json(*value) : Json(nullptr); }
+
+std::string or_empty(const std::string* text) { return text == nullptr ? std::string() : *text; }
+
+Json area_json(const runtime::AreaState& area) {
+  return {{"kind", runtime::name_of(area.what.kind)},
+          {"name", area.what.name},
+          {"age_s", area.age_s},
+          {"worst_s", area.worst_s},
+          {"deadline_s", or_null(area.deadline_s)},
+          {"is_overdue", area.is_overdue},
+          {"asked", area.asked},
+          {"achieved", area.achieved}};
+}
+
+}  // namespace
+
+Json hello_json(const Operator& client, std::string_view program, bool wants_login) {
+  return {{"type", "hello"},         {"protocol", 1},       {"program", program},
+          {"client", client.client}, {"name", client.name}, {"role", name_of(client.role)},
+          {"roles", kRoleWords},     {"login", wants_login}};
+}
+
+Json mission_message(const runtime::Mission& mission, std::uint32_t epoch) {
+  Json file = mission_json(mission);
+  file.erase("targets");
+  file.erase("no_fly");
+  return {{"type", "mission"},
+          {"epoch", epoch},
+          {"fleet", "SIM"},
+          {"mission", std::move(file)},
+          {"display", display_json(mission, kMostSpeed)}};
+}
+
+Json targets_json(const runtime::MissionDesk& desk, std::uint32_t epoch) {
+  const runtime::Mission& mission = desk.mission();
+  return {{"type", "targets"},
+          {"epoch", epoch},
+          {"revision", desk.revision()},
+          {"by", desk.by()},
+          {"what", desk.what()},
+          {"can_undo", desk.undo_what() != nullptr},
+          {"can_redo", desk.redo_what() != nullptr},
+          {"undo_what", or_empty(desk.undo_what())},
+          {"redo_what", or_empty(desk.redo_what())},
+          {"clusters", list_of(mission.targets.clusters)},
+          {"areas", list_of(mission.targets.areas)},
+          {"no_fly", list_of(mission.no_fly)},
+          {"uniform_floor", mission.targets.uniform_floor}};
+}
+
+Json event_json(const ConsoleEvent& event) {
+  return {{"number", event.number},
+          {"tick", event.tick},
+          {"time_s", event.time_s},
+          {"wall_ms", event.wall_ms},
+          {"severity", runtime::name_of(event.words.severity)},
+          {"source", event.source},
+          {"what", event.what},
+          {"drone", event.drone},
+          {"was", event.was},
+          {"by", event.by},
+          {"text", event.words.text},
+          {"effect", event.words.effect},
+          {"next", event.words.next}};
+}
+
+Json events_json(const std::vector<Json>& events) { return {{"type", "events"}, {"events", events}}; }
+
+Json status_json(const std::vector<runtime::AreaState>& areas, const StatusContext& context) {
+  Json list = Json::array();
+  for (const runtime::AreaState& area : areas) list.push_back(area_json(area));
+  Json recording(nullptr);
+  if (context.recording)
+    recording = {{"folder", context.recording->folder},
+                 {"ticks", context.recording->ticks},
+                 {"lost_ticks", context.recording->lost_ticks}};
+  return {{"type", "status"},
+          {"epoch", context.epoch},
+          {"areas", std::move(list)},
+          {"recording", std::move(recording)},
+          {"lost_events", context.lost_events},
+          {"clients", context.clients},
+          {"lateness_us",
+           {{"p50", context.lateness.p50_us},
+            {"p99", context.lateness.p99_us},
+            {"p999", context.lateness.p999_us},
+            {"max", context.lateness.max_us}}},
+          {"waits_for_resume", context.waits_for_resume}};
+}
+
+Json presence_json(const std::vector<Operator>& operators) {
+  Json list = Json::array();
+  for (const Operator& one : operators) {
+    Json editing = Json::array();
+    for (const runtime::TargetName& what : one.editing)
+      editing.push_back({{"kind", runtime::name_of(what.kind)}, {"name", what.name}});
+    list.push_back(
+        {{"client", one.client}, {"name", one.name}, {"role", name_of(one.role)}, {"editing", std::move(editing)}});
+  }
+  return {{"type", "presence"}, {"operators", std::move(list)}};
+}
+
+Json ack_json(std::uint64_t id, const Answer& answer) {
+  Json json{{"type", "ack"}, {"id", id}, {"tick", answer.tick}, {"pending", answer.is_pending}};
+  if (answer.revision) json["revision"] = *answer.revision;
+  if (answer.refused_drones.empty()) return json;
+  Json refused = Json::array();
+  for (const auto& [drone, reason] : answer.refused_drones) refused.push_back({{"drone", drone}, {"reason", reason}});
+  json["refused_drones"] = std::move(refused);
+  return json;
+}
+
+Json refused_json(const MessageRefusal& refusal) {
+  return {{"type", "refused"},
+          {"id", refusal.id ? Json(*refusal.id) : Json(nullptr)},
+          {"code", refusal.code},
+          {"reason", refusal.reason}};
+}
+
+Json pong_json(std::uint64_t id, double wall_ms) { return {{"type", "pong"}, {"id", id}, {"wall_ms", wall_ms}}; }
+
+Json bye_json(std::string_view code, std::string_view reason) {
+  return {{"type", "bye"}, {"code", code}, {"reason", reason}};
+}
+
+std::string_view code_of(runtime::Refusal::Code code) {
+  switch (code) {
+    case runtime::Refusal::Code::kStale:
+      return "stale";
+    case runtime::Refusal::Code::kNotNow:
+      return "not_now";
+    case runtime::Refusal::Code::kInvalid:
+      break;
+  }
+  return "invalid";
+}
+
+std::string in_text(const Json& json) { return json.dump(-1, ' ', false, Json::error_handler_t::replace); }
+
+}  // namespace vigil::console

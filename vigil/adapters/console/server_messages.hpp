@@ -1,0 +1,88 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include <nlohmann/json.hpp>
+
+#include "vigil/adapters/console/client_message.hpp"
+#include "vigil/adapters/console/role.hpp"
+#include "vigil/runtime/event_words.hpp"
+#include "vigil/runtime/ground_picture.hpp"
+#include "vigil/runtime/mission_desk.hpp"
+
+/// The JSON that the server says: protocol/README.md, member for member.
+namespace vigil::console {
+
+inline constexpr double kMostSpeed = 20.0;
+
+/// What stands in the log of events.
+struct ConsoleEvent {
+  std::uint64_t number = 0;
+  std::uint64_t tick = 0;
+  double time_s = 0.0;
+  double wall_ms = 0.0;
+  std::string source{};
+  std::string what{};
+  std::string drone{};
+  std::string was{};
+  std::string by{};
+  runtime::EventWords words{};
+};
+
+/// Somebody at a console.
+struct Operator {
+  std::uint32_t client = 0;
+  std::string name;
+  Role role = Role::kViewer;
+  std::vector<runtime::TargetName> editing;
+};
+
+/// The state of a recording.
+struct RecordingState {
+  std::string folder;
+  std::uint64_t ticks = 0;
+  std::uint64_t lost_ticks = 0;
+};
+
+struct StatusContext {
+  std::uint32_t epoch = 0;
+  std::optional<RecordingState> recording;
+  std::size_t lost_events = 0;
+  std::size_t clients = 0;
+  runtime::LatenessFigures lateness;
+  bool waits_for_resume = false;
+};
+
+/// A command's answer, before its id.
+struct Answer {
+  std::uint64_t tick = 0;
+  bool is_pending = false;
+  std::optional<std::uint64_t> revision;
+  std::vector<std::pair<std::string, std::string>> refused_drones;  ///< id, reason
+};
+
+using Json = nlohmann::ordered_json;
+
+[[nodiscard]] Json hello_json(const Operator& client, std::string_view program, bool wants_login);
+[[nodiscard]] Json mission_message(const runtime::Mission& mission, std::uint32_t epoch);
+[[nodiscard]] Json targets_json(const runtime::MissionDesk& desk, std::uint32_t epoch);
+[[nodiscard]] Json event_json(const ConsoleEvent& event);
+[[nodiscard]] Json events_json(const std::vector<Json>& events);
+[[nodiscard]] Json status_json(const std::vector<runtime::AreaState>& areas, const StatusContext& context);
+[[nodiscard]] Json presence_json(const std::vector<Operator>& operators);
+[[nodiscard]] Json ack_json(std::uint64_t id, const Answer& answer);
+[[nodiscard]] Json refused_json(const MessageRefusal& refusal);
+[[nodiscard]] Json pong_json(std::uint64_t id, double wall_ms);
+[[nodiscard]] Json bye_json(std::string_view code, std::string_view reason);
+
+/// The protocol's word for why a desk refused.
+[[nodiscard]] std::string_view code_of(runtime::Refusal::Code code);
+
+/// For the wire. Text that is not UTF-8 (a file's name) is shown with replacement characters.
+[[nodiscard]] std::string in_text(const Json& json);
+
+}  // namespace vigil::console

@@ -1,0 +1,150 @@
+#include "vigil/apps/serve_command.hpp"
+
+#include <cstdio>
+#include <memory>
+#include <optional>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "vigil/adapters/console/server.hpp"
+#include "vigil/adapters/recording/csv_recorder.hpp"
+#include "vigil/apps/failure.hpp"
+#include "vigil/apps/fleet_choice.hpp"
+#include "vigil/apps/interrupt.hpp"
+#include "vigil/apps/mission_choice.hpp"
+#include "vigil/runtime/controller_setup.hpp"
+#include "vigil/runtime/live_mission.hpp"
+#include "vigil/runtime/mission_error.hpp"
+#include "vigil/runtime/mission_file.hpp"
+#include "vigil/runtime/mission_writer.hpp"
+#include "vigil/runtime/saved_flight.hpp"
+
+namespace vigil::apps {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string in_words(const fs::path& path) {
+  constexpr std::size_t kMostBytes = 300;
+  return runtime::on_one_line(path.string(), kMostBytes);
+}
+
+void check_options(const ServeOptions& options) {
+  if (options.fleet != "sim")
+    throw Failure(kBadInput, fmt::format("--fleet {}: is not known; must be: sim (simulated drones)",
+                                         runtime::on_one_line(options.fleet, 60)));
+  if (!console::is_loopback(options.address) && options.tokens.empty())
+    throw Failure(kBadInput,
+                  fmt::format("--address {}: others can reach it, so --tokens FILE is needed, with lines of a role "
+                              "(viewer, operator, safety_pilot) and a token; make one with: openssl rand -hex 24",
+                              runtime::on_one_line(options.address, 60)));
+  if (options.certificate.empty() != options.key.empty())
+    throw Failure(kBadInput, "--certificate and --key belong together; give both, or none");
+}
+
+/// Of each mission that one program flies a folder: DIR, DIR-2, ...
+fs::path recording_of(const fs::path& folder, std::uint32_t epoch) {
+  return epoch == 1 ? folder : fs::path(fmt::format("{}-{}", folder.string(), epoch));
+}
+
+std::unique_ptr<runtime::QueuedRecorder> recorder_for(const runtime::Mission& mission, const ServeOptions& options,
+                                                      std::uint32_t epoch) {
+  if (options.record.empty()) return nullptr;
+  const fs::path folder = recording_of(options.record, epoch);
+  std::error_code error;
+  if (fs::exists(fs::symlink_status(folder, error)))
+    throw Failure(kBadInput, fmt::format("--record {}: is there already; name a directory that is not, or remove it",
+                                         in_words(folder)));
+  auto recorder = std::make_unique<recording::CsvRecorder>(folder, runtime::mission_yaml(mission), options.keep_every);
+  return std::make_unique<runtime::QueuedRecorder>(std::move(recorder), mission);
+}
+
+std::vector<DroneStart> starts_of(const runtime::SavedFlight& saved) {
+  std::vector<DroneStart> starts;
+  for (const runtime::SavedFlight::Drone& drone : saved.drones) starts.push_back({drone.place_m, drone.is_down});
+  return starts;
+}
+
+std::shared_ptr<runtime::LiveMission> make_flight(const runtime::Mission& mission, const ServeOptions& options,
+                                                  std::uint32_t epoch, const runtime::SavedFlight* saved) {
+  runtime::LiveStart start{runtime::first_intent(mission), {}};
+  // After a restart the drones hover until somebody has looked, and resumes.
+  if (saved != nullptr) start = {swarm::Intent::kHold, saved->past};
+  std::unique_ptr<runtime::VirtualFleet> fleet =
+      saved == nullptr ? simulated_fleet(mission) : simulated_fleet(mission, starts_of(*saved));
+  return std::make_shared<runtime::LiveMission>(mission, std::move(fleet), recorder_for(mission, options, epoch), start,
+                                                epoch);
+}
+
+/// What an earlier run left of the same mission; nothing where it left nothing.
+std::optional<runtime::SavedFlight> left_by_an_earlier_run(const runtime::FlightStore& store,
+                                                           const runtime::Mission& mission) {
+  std::optional<runtime::SavedFlight> saved = store.load();
+  if (!saved) return std::nullopt;
+  if (saved->mission_text != runtime::mission_yaml(mission) || saved->drones.size() != mission.drones.size())
+    throw Failure(kBadInput,
+                  fmt::format("--state {}: is of another mission, or of this one before it was changed; give "
+                              "--afresh to forget it, or another folder",
+                              in_words(store.folder())));
+  return saved;
+}
+
+fs::path built_page() {
+  std::error_code error;
+  const fs::path installed = fs::read_symlink("/proc/self/exe", error).parent_path() / "../share/vigil/web";
+  return fs::is_directory(installed, error) ? installed : fs::path(VIGIL_PAGE_DIR);
+}
+
+console::ServerOptions server_options(const ServeOptions& options, const std::string& version) {
+  console::ServerOptions result;
+  result.address = options.address;
+  result.port = options.port;
+  result.names = options.names;
+  if (!options.tokens.empty()) result.tokens = console::Tokens::read(options.tokens);
+  result.certificate = options.certificate;
+  result.key = options.key;
+  result.page = options.page.empty() ? built_page() : options.page;
+  result.program = "vigil " + version;
+  result.recording_folder = options.record.string();
+  return result;
+}
+
+int run(const ServeOptions& options, const std::string& version) {
+  runtime::Mission mission = choose_mission(options.mission, options.settings);
+  std::shared_ptr<runtime::FlightStore> store;
+  std::optional<runtime::SavedFlight> saved;
+  if (!options.state.empty()) {
+    store = std::make_shared<runtime::FlightStore>(options.state);
+    if (options.afresh) store->clear();
+    saved = left_by_an_earlier_run(*store, mission);
+    if (saved) mission = runtime::parse_mission(saved->targets_text, in_words(options.state));
+  }
+  console::Server server(
+      server_options(options, version),
+      [&options](const runtime::Mission& one, std::uint32_t epoch, const runtime::SavedFlight* of) {
+        return make_flight(one, options, epoch, of);
+      },
+      store);
+  catch_interrupts();
+  fmt::print("vigil: {} at {}\n", mission.name, server.url());
+  if (saved) fmt::print("vigil: goes on where it was; drones in the air hold until somebody resumes them\n");
+  std::fflush(stdout);
+  server.run(mission, saved ? &*saved : nullptr, is_interrupted);
+  return kDone;
+}
+
+}  // namespace
+
+int serve(const ServeOptions& options, const std::string& version) {
+  check_options(options);
+  try {
+    return run(options, version);
+  } catch (const console::SetupError& error) {
+    throw Failure(kBadInput, error.what());
+  } catch (const runtime::SavedFlightError& error) {
+    throw Failure(kComponentFailed, error.what());
+  }
+}
+
+}  // namespace vigil::apps

@@ -1,0 +1,31 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace vigil::apps {
+
+struct ServeOptions {
+  std::filesystem::path mission;
+  std::string fleet = "sim";
+  std::string address = "127.0.0.1";
+  std::uint16_t port = 8080;          ///< 0: any that is free
+  std::vector<std::string> names;     ///< by which browsers come here, beside the address
+  std::filesystem::path tokens;       ///< empty: no login
+  std::filesystem::path certificate;  ///< empty: no TLS
+  std::filesystem::path key;
+  std::filesystem::path record;  ///< empty: nothing is recorded
+  std::uint64_t keep_every = 1;
+  std::filesystem::path state;        ///< empty: nothing is kept for a restart
+  bool afresh = false;                ///< forget what an earlier run left
+  std::filesystem::path page;         ///< empty: where the build or the installation has it
+  std::vector<std::string> settings;  ///< key=value
+};
+
+/// `vigil serve`: flies a mission in real time and serves the console, until Ctrl-C. Throws Failure,
+/// runtime::MissionError.
+[[nodiscard]] int serve(const ServeOptions& options, const std::string& version);
+
+}  // namespace vigil::apps
