@@ -42,7 +42,7 @@ void ControlLoop::obey_the_clock(const LiveCommand& command, Time now) noexcept 
   answer.tick = flight_.state().ticks();
   answer.ticket = command.ticket;
   answer.accepted = 1;
-  outbox_.note(answer);
+  if (command.ticket != 0) outbox_.note(answer);
 }
 
 /// Those for the clock take effect at once; those for the swarm wait for the next tick.

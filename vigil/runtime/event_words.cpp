@@ -73,6 +73,9 @@ EventWords words_for(std::string_view id, Activity after, const swarm::DroneSnap
               "it lands where it is; " + lost, "change its battery, then take off"};
     case Activity::kHeld:
       return {Severity::kInfo, fmt::format("{} holds", id), lost, "resume sends it back to coverage"};
+    case Activity::kTravelling:
+      return {Severity::kInfo, fmt::format("{} flies to a place", id), "it waits there; " + lost,
+              "resume sends it back to coverage"};
     case Activity::kRecovering:
       break;
   }
@@ -95,8 +98,11 @@ std::string refusal_words(std::string_view id, CommandKind wish, const swarm::Dr
     case CommandKind::kHold:
       if (is_down) return fmt::format("{} is on the ground; only a drone in the air holds", id);
       return fmt::format("a pilot has {}; it must be given back first", id);
+    case CommandKind::kGoTo:
+      if (is_down) return fmt::format("{} is on the ground; only a drone in the air flies to a place", id);
+      return fmt::format("{} cannot fly to a place now", id);
     case CommandKind::kResume:
-      return fmt::format("{} is neither held nor marked as failed", id);
+      return fmt::format("{} is neither held, nor at a place, nor marked as failed", id);
     case CommandKind::kGiveBack:
       return fmt::format("nobody took {} over", id);
     default:

@@ -32,6 +32,10 @@ LiveFlight::LiveFlight(const Mission& mission, Fleet& fleet, VirtualFleet* world
   if (world != nullptr) {
     script_.emplace(mission, *world);
     audit_.emplace(audit_limits(mission), mission.drones.size());
+    if (mission.simulation.goals) {
+      goals_.emplace(mission);
+      last_.emplace(mission.drones.size());
+    }
   }
   if (start.past && state_.read_past(*start.past) && script_)
     script_->skip_to(static_cast<double>(state_.ticks()) * dt_s());
@@ -58,6 +62,7 @@ void LiveFlight::play_script(double time_s, Outbox<LiveEvent>& outbox) noexcept 
     told.index = next;
     outbox.note(told);
   }
+  if (goals_) goals_->play(*last_, commands_);
 }
 
 void LiveFlight::gather(std::span<const LiveCommand> commands) noexcept {
@@ -106,13 +111,17 @@ void LiveFlight::tell(std::span<const LiveCommand> commands, const swarm::Snapsh
     told.kind = LiveEvent::Kind::kAnswer;
     told.accepted = std::exchange(accepted, 0);
     told.refused = std::exchange(refused, 0);
-    outbox.note(told);
+    if (told.ticket != 0) outbox.note(told);
   }
   told.ticket = 0;
   for (; next != snapshot.events.end(); ++next) tell_event(LiveEvent::Kind::kSwarm, *next);
 }
 
 void LiveFlight::judge_and_record(const swarm::Snapshot& snapshot) noexcept {
+  if (goals_) {
+    goals_->watch(world_->truth(), snapshot, snapshot.time_s);
+    last_ = snapshot;
+  }
   if (recorder_ == nullptr) return;
   if (audit_) {
     const Clearances clearances = audit_->judge(world_->truth(), snapshot);

@@ -8,6 +8,7 @@
 
 #include "vigil/runtime/flight_audit.hpp"
 #include "vigil/runtime/flight_script.hpp"
+#include "vigil/runtime/goal_script.hpp"
 #include "vigil/runtime/hand_over.hpp"
 #include "vigil/runtime/live_frame.hpp"
 #include "vigil/swarm/tick.hpp"
@@ -84,6 +85,8 @@ class LiveFlight {
   Recorder* recorder_;
   swarm::SwarmState state_;
   std::optional<FlightScript> script_;
+  std::optional<GoalScript> goals_;
+  std::optional<swarm::Snapshot> last_;  ///< of the tick before, where there are goals
   std::optional<FlightAudit> audit_;
   std::uint64_t revision_ = 0;
   std::vector<swarm::DroneObservation> observations_;

@@ -25,9 +25,11 @@ struct WishWord {
   std::string_view word;
   CommandKind kind;
 };
-constexpr std::array<WishWord, 7> kWishes{{{"take_off", CommandKind::kTakeOff},
+constexpr std::array<WishWord, 9> kWishes{{{"take_off", CommandKind::kTakeOff},
                                            {"land", CommandKind::kLand},
                                            {"hold", CommandKind::kHold},
+                                           {"go_to", CommandKind::kGoTo},
+                                           {"return", CommandKind::kGoTo},
                                            {"resume", CommandKind::kResume},
                                            {"mark_failed", CommandKind::kMarkFailed},
                                            {"give_back", CommandKind::kGiveBack},
@@ -58,9 +60,14 @@ Hello hello_in(const JsonReader& reader) {
   return hello;
 }
 
-DroneWish wish_in(const JsonReader& reader, CommandKind kind) {
-  reader.allow_only({"type", "id", "drones"});
-  DroneWish wish{kind, false, {}};
+DroneWish wish_in(const JsonReader& reader, std::string_view type, CommandKind kind) {
+  DroneWish wish{kind, false, {}, {}};
+  if (type == "go_to") {
+    reader.allow_only({"type", "id", "drones", "place_m"});
+    wish.place_m = reader.point("place_m");
+  } else {
+    reader.allow_only({"type", "id", "drones"});
+  }
   if (!reader.is_text("drones")) {
     wish.drones = reader.texts("drones", kMostDrones, kMostIdBytes);
     if (wish.drones.empty()) reader.refuse("drones", "must name at least one drone");
@@ -105,7 +112,7 @@ Body nothing_in(const JsonReader& reader) {
 
 std::optional<MessageBody> body_in(const JsonReader& reader, std::string_view type) {
   for (const WishWord& wish : kWishes)
-    if (wish.word == type) return wish_in(reader, wish.kind);
+    if (wish.word == type) return wish_in(reader, type, wish.kind);
   if (type == "hello") return hello_in(reader);
   if (type == "ping") return nothing_in<Ping>(reader);
   if (type == "preview_density") return draft_in<PreviewDensity>(reader);
@@ -120,7 +127,7 @@ std::optional<MessageBody> body_in(const JsonReader& reader, std::string_view ty
   if (type == "load_mission") return mission_in(reader);
   if (type == "land_all") {
     reader.allow_only({"type", "id"});
-    return DroneWish{CommandKind::kLand, true, {}};
+    return DroneWish{CommandKind::kLand, true, {}, {}};
   }
   return std::nullopt;
 }

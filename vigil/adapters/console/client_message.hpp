@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "vigil/adapters/console/role.hpp"
+#include "vigil/core/field/vec2.hpp"
 #include "vigil/runtime/target_edit.hpp"
 #include "vigil/swarm/command.hpp"
 
@@ -33,6 +34,7 @@ struct DroneWish {
   swarm::CommandKind kind = swarm::CommandKind::kHold;
   bool all = false;
   std::vector<std::string> drones;  ///< ids, where not all
+  std::optional<Vec2> place_m;      ///< kGoTo: world frame; none: each drone's own start
 };
 struct Edit {
   std::uint64_t based_on = 0;

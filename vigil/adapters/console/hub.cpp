@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "vigil/runtime/mission_error.hpp"
+#include "vigil/runtime/mission_setup.hpp"
 
 namespace vigil::console {
 namespace {
@@ -218,16 +219,37 @@ void Hub::dispatch(const ClientMessage& message, const Author& author, std::uint
              message.body);
 }
 
-void Hub::wish(const DroneWish& wish, std::uint64_t ticket) {
-  std::vector<runtime::LiveCommand> commands;
-  runtime::LiveCommand command;
-  command.swarm.kind = wish.kind;
-  if (wish.all) commands.push_back(command);
+/// The drones that a wish names; refused where one of them is not there.
+std::optional<std::vector<std::size_t>> Hub::drones_of(const DroneWish& wish, std::uint64_t ticket) {
+  std::vector<std::size_t> drones;
+  if (wish.all)
+    for (std::size_t i = 0; i < flight_->mission().drones.size(); ++i) drones.push_back(i);
   for (const std::string& id : wish.drones) {
     const auto found = drone_index_.find(id);
-    if (found == drone_index_.end())
-      return refuse(ticket, "unknown_drone", fmt::format("there is no drone {}", runtime::on_one_line(id, 60)));
-    command.swarm.drone = swarm::DroneId(found->second);
+    if (found == drone_index_.end()) {
+      refuse(ticket, "unknown_drone", fmt::format("there is no drone {}", runtime::on_one_line(id, 60)));
+      return std::nullopt;
+    }
+    drones.push_back(found->second);
+  }
+  return drones;
+}
+
+void Hub::wish(const DroneWish& wish, std::uint64_t ticket) {
+  const auto drones = drones_of(wish, ticket);
+  if (!drones) return;
+  const runtime::Mission& mission = flight_->mission();
+  const field::Field field = runtime::monitored_field(mission);
+  const field::WorldFrame world = runtime::world_frame(mission);
+  std::vector<runtime::LiveCommand> commands;
+  for (const std::size_t drone : *drones) {
+    runtime::LiveCommand command;
+    command.swarm.kind = wish.kind;
+    command.swarm.drone = swarm::DroneId(drone);
+    const Vec2 place = world.point_to_field(wish.place_m.value_or(mission.drones[drone].start_m));
+    if (wish.kind == swarm::CommandKind::kGoTo && wish.place_m && !field.contains(place))
+      return refuse(ticket, "invalid", "place_m: is outside the field; choose a place inside it");
+    if (wish.kind == swarm::CommandKind::kGoTo) command.swarm.place = field.clamp(place);
     commands.push_back(command);
   }
   submit(std::move(commands), ticket);

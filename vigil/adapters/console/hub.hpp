@@ -124,6 +124,7 @@ class Hub {
   std::uint64_t expect(const ClientMessage& message, const Author& author, Reply reply);
   void dispatch(const ClientMessage& message, const Author& author, std::uint64_t ticket);
   void wish(const DroneWish& wish, std::uint64_t ticket);
+  [[nodiscard]] std::optional<std::vector<std::size_t>> drones_of(const DroneWish& wish, std::uint64_t ticket);
   void submit(std::vector<runtime::LiveCommand> commands, std::uint64_t ticket);
   void ask_desk(std::uint64_t ticket, std::function<void(Desk&)> task);
   void refuse(std::uint64_t ticket, std::string_view code, std::string reason);
