@@ -12,6 +12,7 @@ constexpr ControlLoop::Time kLongestWait = 10ms;
 /// Lateness is told of the last one to two of these.
 constexpr ControlLoop::Time kPeriod = 10s;
 constexpr ControlLoop::Time kFiguresEvery = 500ms;
+constexpr std::size_t kMostClockCommands = 64;
 
 std::size_t inbox_size(std::size_t drones) { return 2 * drones + 64; }
 std::size_t outbox_size(std::size_t drones) { return 16 * drones + 1024; }
@@ -22,6 +23,7 @@ ControlLoop::ControlLoop(LiveFlight& flight, std::size_t drones)
     : flight_(flight),
       pacer_(flight.dt_s(), Time(0)),
       inbox_(inbox_size(drones)),
+      clock_inbox_(kMostClockCommands),
       outbox_(outbox_size(drones)),
       frames_(drones) {
   waiting_.reserve(inbox_size(drones));
@@ -45,17 +47,16 @@ void ControlLoop::obey_the_clock(const LiveCommand& command, Time now) noexcept 
   if (command.ticket != 0) outbox_.note(answer);
 }
 
-/// Those for the clock take effect at once; those for the swarm wait for the next tick.
-void ControlLoop::take_commands(Time now) noexcept {
+bool ControlLoop::submit(std::vector<LiveCommand> commands) {
+  const bool is_for_swarm = commands.empty() || commands.front().kind == LiveCommand::Kind::kSwarm;
+  return is_for_swarm ? inbox_.push(std::move(commands)) : clock_inbox_.push(std::move(commands));
+}
+
+void ControlLoop::take_commands() noexcept {
   if (next_ < waiting_.size()) return;
   waiting_.clear();
   next_ = 0;
-  for (const LiveCommand& command : inbox_.take()) {
-    if (command.kind == LiveCommand::Kind::kSwarm)
-      waiting_.push_back(command);  // within its capacity, which is the inbox's
-    else
-      obey_the_clock(command, now);
-  }
+  for (const LiveCommand& command : inbox_.take()) waiting_.push_back(command);  // within its capacity, the inbox's
 }
 
 /// As many of those that wait as one tick can tell apart; a ticket's are not parted.
@@ -97,7 +98,8 @@ void ControlLoop::publish(Time now) noexcept {
 }
 
 ControlLoop::Time ControlLoop::turn(Time now) noexcept {
-  take_commands(now);
+  for (const LiveCommand& command : clock_inbox_.take()) obey_the_clock(command, now);
+  take_commands();
   if (pacer_.is_due(now)) tick(now);
   publish(now);
   outbox_.send();

@@ -29,7 +29,8 @@ class ControlLoop {
   // Any thread.
   /// All of `commands`, in order and in one tick where it can tell their answers apart, or false where the queue is
   /// full.
-  [[nodiscard]] bool submit(std::vector<LiveCommand> commands) { return inbox_.push(std::move(commands)); }
+  /// Precondition: either all of kind kSwarm, or none.
+  [[nodiscard]] bool submit(std::vector<LiveCommand> commands);
   /// The newest frame; see Latest::read.
   bool read(LiveFrame& into, std::size_t& version) const { return frames_.read(into, version); }
   /// How the clock goes; see Latest::read.
@@ -40,7 +41,7 @@ class ControlLoop {
   [[nodiscard]] std::size_t lost_events() const { return outbox_.lost(); }
 
  private:
-  void take_commands(Time now) noexcept;
+  void take_commands() noexcept;
   void obey_the_clock(const LiveCommand& command, Time now) noexcept;
   [[nodiscard]] std::span<const LiveCommand> due_commands() noexcept;
   void tick(Time now) noexcept;
@@ -55,6 +56,7 @@ class ControlLoop {
   Time period_began_{0};
   Time figures_made_{0};
   Inbox<LiveCommand> inbox_;
+  Inbox<LiveCommand> clock_inbox_;  ///< apart: who pauses must be able to resume, whatever waits for a tick
   Outbox<LiveEvent> outbox_;
   Latest<LiveFrame> frames_;
   Latest<ClockState> clocks_;

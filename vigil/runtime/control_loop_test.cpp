@@ -133,7 +133,8 @@ TEST_F(ControlLoopTest, Activity_changes_are_told_with_the_drone_that_they_are_a
 TEST_F(ControlLoopTest, A_pause_stops_the_world_and_what_was_wished_meanwhile_happens_afterwards) {
   run_until(6s);
   const std::uint64_t tick = frame().snapshot.tick;
-  ASSERT_TRUE(loop.submit({clock(LiveCommand::Kind::kPause, 1), wish(CommandKind::kHold, 0, 2)}));
+  ASSERT_TRUE(loop.submit({clock(LiveCommand::Kind::kPause, 1)}));
+  ASSERT_TRUE(loop.submit({wish(CommandKind::kHold, 0, 2)}));
   run_until(16s);
   EXPECT_EQ(frame().snapshot.tick, tick);
   EXPECT_TRUE(clock_state().is_paused);
