@@ -36,9 +36,10 @@ export function label(
   colour: string,
   align: CanvasTextAlign = 'left',
 ): void {
-  const { context, palette } = pen;
+  const { context, palette, size } = pen;
   context.font = kFont;
-  context.textAlign = align;
+  const isCut = align === 'left' && x + context.measureText(text).width > size.width - 66;
+  context.textAlign = isCut ? 'right' : align;
   context.lineJoin = 'round';
   context.lineWidth = 3.5;
   context.strokeStyle = palette.halo;

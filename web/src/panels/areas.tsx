@@ -90,11 +90,14 @@ function Served({ status }: { status: AreaStatus | undefined }) {
           <b style={{ left: `${Math.min(99, 100 * Math.max(0, asked ?? 0))}%` }} />
         </span>
         <span>
-          {percent(achieved)} <span class="unseen">achieved</span>of {percent(asked)}
+          {percent(achieved).replace(' %', '')} <span class="unseen">percent achieved </span>of {percent(asked)}
         </span>
       </span>
-      <span class={`entry-age ${status.is_overdue ? 'alarm' : left !== null && left < 5 ? 'warning' : ''}`}>
-        {left === null ? `seen ${duration(age_s)}` : left >= 0 ? `${duration(left)} left` : `late ${duration(-left)}`}
+      <span
+        title="Time since its longest unseen part was seen; or what is left until its deadline"
+        class={`entry-age ${status.is_overdue ? 'alarm' : left !== null && left < 5 ? 'warning' : ''}`}
+      >
+        {left === null ? `${duration(age_s)} ago` : left >= 0 ? `${duration(left)} left` : `late ${duration(-left)}`}
       </span>
     </>
   );

@@ -8,13 +8,13 @@ import { Icon, type IconName } from './icons';
 
 const kSeverityIcons: Record<string, IconName> = { ok: 'ok', info: 'info', warning: 'warning', alarm: 'alarm' };
 const kColumns = [
-  ['id', '15%'],
-  ['state', '25%'],
-  ['x, y (m)', '19%'],
-  ['batt.', '11%'],
-  ['link', '12%'],
-  ['m/s', '10%'],
-  ['held by', '16%'],
+  ['id', '13%'],
+  ['state', '24%'],
+  ['x, y (m)', '21%'],
+  ['batt.', '9%'],
+  ['link', '11%'],
+  ['m/s', '8%'],
+  ['held by', '14%'],
 ] as const;
 
 /** Every drone as a row; only the rows in view are in the page, however many drones there are. */

@@ -115,6 +115,7 @@ export function Inspector() {
 
 function HeldBy({ drone }: { drone: number }) {
   const { session } = useApp();
+  void session.beat.value;
   const snapshot = session.snapshot!;
   const rows = holdersOf(snapshot, drone);
   const flags = snapshot.flags[drone]!;
@@ -132,6 +133,7 @@ function HeldBy({ drone }: { drone: number }) {
 
 function Gauge({ drone, kind, name }: { drone: number; kind: VelocityKind; name: string }) {
   const { session } = useApp();
+  void session.beat.value;
   const speed = speedOf(session.snapshot!, drone, kind);
   const most = session.mission.value?.display.speed_limit_m_s ?? 1;
   return (

@@ -19,6 +19,8 @@ interface Props {
   readonly isLogarithmic?: boolean;
   /** A horizontal line, such as R_s. */
   readonly limit?: number | null;
+  /** The vertical axis reaches at least to this. */
+  readonly atLeast?: number;
   readonly description: string;
 }
 
@@ -43,7 +45,7 @@ export function Plot(props: Props) {
       made.destroy();
       plot.current = null;
     };
-  }, [theme, seriesKey, props.limit]);
+  }, [theme, seriesKey, props.limit, props.atLeast]);
   const beat = session.beat.value;
   useEffect(() => {
     plot.current?.setData(props.data());
@@ -86,7 +88,10 @@ function optionsOf(element: HTMLElement, props: Props): uPlot.Options {
     ...sizeOf(element),
     legend: { show: false },
     cursor: { show: false },
-    scales: { x: { time: false }, y: props.isLogarithmic ? logarithmic() : linear(props.limit ?? null) },
+    scales: {
+      x: { time: false },
+      y: props.isLogarithmic ? logarithmic() : linear(Math.max(1.6 * (props.limit ?? 0), props.atLeast ?? 0)),
+    },
     axes: [seconds, { ...axis, size: 42, space: 26, values: (_, values) => values.map(shortNumber) }],
     series: [{}, ...props.series.map(lineOf)],
     hooks: props.limit == null ? {} : { draw: [(u) => drawLimit(u, props.limit!)] },
@@ -108,8 +113,8 @@ const logarithmic = (): uPlot.Scale => ({
   range: (_, low, high) => [10 ** Math.floor(Math.log10(Math.max(low ?? 1, 0.01))), Math.max(100, high ?? 100)],
 });
 
-const linear = (limit: number | null): uPlot.Scale => ({
-  range: (_, __, high) => [0, Math.max((high ?? 0) * 1.1, (limit ?? 0) * 1.6, 1e-3)],
+const linear = (least: number): uPlot.Scale => ({
+  range: (_, __, high) => [0, Math.max((high ?? 0) * 1.1, least, 1e-3)],
 });
 
 const shortNumber = (value: number | null): string => (value === null ? '' : String(Number(value.toPrecision(3))));

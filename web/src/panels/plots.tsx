@@ -22,6 +22,7 @@ export function Plots() {
   const { snapshot, series } = session;
   const ids = session.droneIds.value;
   const isFew = ids.length <= kMostPlotted;
+  const fullSpeed = session.mission.value?.display.speed_limit_m_s ?? 1;
   const separation = useComputed(() => session.mission.value?.display.separation_m ?? null).value;
   const since = (series.swarm.newestTime ?? 0) - kWindowS;
   const ofSwarm = (column: number) => () => {
@@ -45,6 +46,7 @@ export function Plots() {
         description="Time since the part that waited longest was seen."
         series={[{ name: 'worst age', colour: 'warning' }]}
         data={ofSwarm(2)}
+        atLeast={1}
       />
       <Plot
         title={isFew ? 'Distances, R_s dashed' : 'Least distance, R_s dashed'}
@@ -60,6 +62,7 @@ export function Plots() {
         description="Speed that was asked of the drones."
         series={isFew ? lines(ids) : lines(['fastest'])}
         data={isFew ? () => series.inputs.columns(since) as unknown as uPlot.AlignedData : ofSwarm(5)}
+        atLeast={1.1 * fullSpeed}
       />
     </div>
   );

@@ -4,7 +4,7 @@ import { useApp } from './app_context';
 import { Icon } from './icons';
 
 const kWindowS = 120;
-const kTicks = 6;
+const kTickS = [10, 20] as const;
 
 /** The last two minutes with what happened in them; the event log says the same in words. */
 export function Timeline() {
@@ -14,14 +14,16 @@ export function Timeline() {
   const from = Math.max(0, now - kWindowS);
   const span = Math.max(30, now - from);
   const share = (time: number): string => `${(100 * (time - from)) / span}%`;
-  const step = span / kTicks;
+  const tickS = span <= 60 ? kTickS[0] : kTickS[1];
+  const firstTick = Math.ceil((from + 0.02 * span) / tickS);
+  const ticks = Array.from({ length: Math.floor(span / tickS) }, (_, i) => (firstTick + i) * tickS);
   const shown = session.events.value.filter((event) => event.time_s >= from && event.time_s <= now).slice(-60);
   return (
     <div class="timeline">
       <div class="track" role="img" aria-label={describe(shown)}>
-        {Array.from({ length: kTicks }, (_, i) => (
-          <span key={i} class="tick" style={{ left: share(from + (i + 0.5) * step) }}>
-            {clock(from + (i + 0.5) * step)}
+        {ticks.map((time) => (
+          <span key={time} class="tick" style={{ left: share(time) }}>
+            {clock(time)}
           </span>
         ))}
         {shown.map((event) => (

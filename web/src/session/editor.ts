@@ -1,4 +1,5 @@
 import { computed, signal } from '@preact/signals';
+import type { Refused } from '../link/messages';
 import {
   add,
   area,
@@ -11,7 +12,7 @@ import {
   simplify,
   type Point,
 } from '../model/geometry';
-import { editsOf, isStaged, nothingStaged, redoStep, restage, stage, undoStep, type Step } from '../model/staging';
+import { isStaged, nothingStaged, redoStep, restage, stage, undoStep, type Step } from '../model/staging';
 import { find, freeName, pointsOf, withPoints, type Edit, type EntryName } from '../model/targets';
 import type { Session } from './session';
 
@@ -110,18 +111,18 @@ export class Editor {
     const staging = session.staging.value;
     if (!isStaged(staging) || this.isCommitting.value || !this.mayEdit()) return;
     this.isCommitting.value = true;
-    session.isCommitting = true;
-    const answer = await session.link.command({ type: 'edit', based_on: staging.basedOn, edits: editsOf(staging) });
+    const answer = await session.commit();
     this.isCommitting.value = false;
-    session.isCommitting = false;
+    if (answer.ok) session.notify('info', 'Committed: the swarm follows.');
+    else this.commitRefused(answer.refused);
+  }
+
+  /** What was refused stays staged; after somebody else's change the next Enter commits it all the same. */
+  private commitRefused(refused: Refused): void {
+    const { session } = this;
+    session.notify('warning', refused.reason);
     const revision = session.targets.value?.revision ?? 0;
-    if (answer.ok) {
-      session.restage(nothingStaged(revision));
-      session.notify('info', 'Committed: the swarm follows.');
-      return;
-    }
-    session.notify('warning', answer.refused.reason);
-    if (answer.refused.code === 'stale') session.restage({ ...staging, basedOn: revision });
+    if (refused.code === 'stale') session.restage({ ...session.staging.value, basedOn: revision });
   }
 
   /** Drops what is being drawn, or else what is staged, or else the selection. */
@@ -243,10 +244,15 @@ export class Editor {
     const free = freeName(this.session.draft.value, kind, name ?? (kind === 'area' ? 'area' : 'no-fly'));
     const entry =
       kind === 'area'
-        ? { name: free, outline_m, weight: 5, soft_edge_m: 0, revisit_s: null }
+        ? { name: free, outline_m, weight: 5, soft_edge_m: this.softEdge(), revisit_s: null }
         : { name: free, outline_m };
     if (this.stage(`${kind === 'area' ? 'area' : 'no-fly polygon'} ${free}`, { op: 'add', kind, entry }))
       this.select({ kind, name: free });
+  }
+
+  /** A hand is not exact: what it draws fades out over two percent of the field, to two digits. */
+  private softEdge(): number {
+    return Number((0.02 * this.shorterSide()).toPrecision(2));
   }
 
   remove(): void {

@@ -60,8 +60,10 @@ export class Session {
   trails: Trails | null = null;
   readonly series = new Series();
 
-  /** An `edit` of ours is on its way. */
-  isCommitting = false;
+  private isCommitting = false;
+  private targetsWhileCommitting: TargetsMessage | null = null;
+  /** What is staged became this revision, whose targets have not come yet. */
+  private committedRevision: number | null = null;
 
   private readonly snapshotListeners = new Set<(snapshot: Snapshot) => void>();
   private lastBeatMs = 0;
@@ -175,9 +177,16 @@ export class Session {
   }
 
   private takeTargets(targets: TargetsMessage): void {
+    if (this.isCommitting) {
+      this.targetsWhileCommitting = targets;
+      return;
+    }
     this.targets.value = targets;
-    // Our own commit: the answer, which comes next, clears what is staged.
-    if (this.isCommitting) return;
+    if (this.committedRevision !== null && targets.revision >= this.committedRevision) {
+      this.committedRevision = null;
+      this.restage(nothingStaged(targets.revision));
+      return;
+    }
     const { staging, lost } = rebase(targets, this.staging.value);
     if (lost.length > 0)
       this.notify(
@@ -196,7 +205,7 @@ export class Session {
     const isHistory = this.lastEvent === 0;
     for (const event of events) {
       if (!isHistory && event.number > this.lastEvent && event.severity !== 'info' && event.source !== 'operator')
-        this.notify(event.severity, event.effect ? `${event.text}. ${event.effect}.` : event.text);
+        this.notify(event.severity, event.effect ? `${event.text}: ${event.effect}.` : event.text);
     }
     this.lastEvent = events[events.length - 1]?.number ?? this.lastEvent;
   }
@@ -233,6 +242,25 @@ export class Session {
     if (!isStaged(staging)) this.ghost = null;
     else this.wantPreview();
     this.tellEditing(touched(staging));
+  }
+
+  /**
+   * Sends what is staged. The staged edits make room for the committed ones in the same moment, whichever of the answer
+   * and the new targets comes first: nothing is seen twice, or not at all.
+   */
+  async commit(): Promise<Answer> {
+    const { basedOn, steps } = this.staging.value;
+    this.isCommitting = true;
+    const edits = steps.flatMap((step) => step.edits);
+    const answer = await this.link.command({ type: 'edit', based_on: basedOn, edits });
+    batch(() => {
+      this.isCommitting = false;
+      if (answer.ok) this.committedRevision = answer.ack.revision ?? 0;
+      const targets = this.targetsWhileCommitting;
+      this.targetsWhileCommitting = null;
+      if (targets) this.takeTargets(targets);
+    });
+    return answer;
   }
 
   /** One preview at a time; the newest draft follows when the answer is there. */
