@@ -1,13 +1,26 @@
+import { mkdtemp, rm, writeFile } from 'node:fs/promises';
+import { tmpdir } from 'node:os';
+import { join } from 'node:path';
+import type { Browser } from 'playwright-core';
 import { openBrowser, openView } from './chromium';
-import { FakeProgram } from './fake_program';
-import { servePage } from './page_server';
+import { serve } from './program';
 
 /**
- * How many pictures a second the map draws while a played program sends 20 snapshots a second, and what one costs the page's
- * own thread: npm run frame-rates [DRONES ...]. Chromium renders in software here, so the rates are a lower bound that has
- * little to do with a GPU's; the cost on the page's thread is the same with one.
+ * How many pictures a second the map draws while the real program flies so many drones, and what one picture costs the
+ * page's own thread: npm run frame-rates [DRONES ...]. Chromium renders in software here, on the cores that also fly the
+ * swarm: the rates say little of a GPU, the cost on the page's thread is the same with one.
  */
-const kSeconds = 6;
+const kSeconds = 8;
+
+const missionOf = (drones: number): string => `
+format: 1
+name: crowd of ${drones}
+field: {size_m: [${Math.ceil(Math.sqrt(drones)) + 2}, ${Math.ceil(Math.sqrt(drones)) + 2}]}
+targets: {uniform_floor: 1}
+drone_grid: {count: ${drones}}
+control: {speed_limit_m_s: 0.3, rate_hz: 10, controller: gradient}
+safety: {separation_m: 0.2, wall_distance_m: 0.17}
+`;
 
 interface Counts {
   pictures: number;
@@ -36,25 +49,21 @@ function countPictures(): void {
     });
 }
 
-async function measure(
-  drones: number,
-  address: string,
-  browser: Awaited<ReturnType<typeof openBrowser>>,
-): Promise<string> {
+async function measure(drones: number, folder: string, browser: Browser): Promise<string> {
+  const file = join(folder, `${drones}.yaml`);
+  await writeFile(file, missionOf(drones));
+  const program = await serve(file);
   const { page, context } = await openView(browser);
   await page.addInitScript(countPictures);
-  const program = new FakeProgram(drones, [Math.sqrt(drones), Math.sqrt(drones)]);
-  await program.attach(page);
-  const steps = setInterval(() => program.step(), 50);
-  await page.goto(address);
+  await page.goto(program.address);
   await page.getByTestId('badge').getByText('SIM').waitFor();
   const counted = (): Promise<Counts> =>
     page.evaluate(() => ({ ...(window as unknown as { counts: Counts }).counts, at: performance.now() }));
   const before = await counted();
   await page.waitForTimeout(1000 * kSeconds);
   const after = await counted();
-  clearInterval(steps);
   await context.close();
+  await program.stop();
   const pictures = after.pictures - before.pictures;
   const rate = (1000 * pictures) / (after.at - before.at);
   const cost = (after.costMs - before.costMs) / Math.max(1, pictures);
@@ -65,9 +74,9 @@ const wanted = process.argv
   .slice(2)
   .map(Number)
   .filter((count) => count > 0);
+const folder = await mkdtemp(join(tmpdir(), 'vigil-frames-'));
 const browser = await openBrowser();
-const site = await servePage();
 for (const drones of wanted.length > 0 ? wanted : [3, 100, 1000, 10_000])
-  console.log(await measure(drones, site.address, browser));
+  console.log(await measure(drones, folder, browser));
 await browser.close();
-await site.close();
+await rm(folder, { recursive: true });

@@ -62,6 +62,8 @@ export class MapView {
   private isDirty = true;
   private isGroundDirty = true;
   private fitted: unknown = null;
+  /** Until somebody pans or zooms, the field stays fitted to a canvas that changes its size. */
+  private staysFitted = true;
   private shown: Record<'density' | 'ghost' | 'coverage' | 'age' | 'trails' | 'mission', unknown> = {
     density: undefined,
     ghost: undefined,
@@ -159,14 +161,17 @@ export class MapView {
 
   fitField(): void {
     const field = this.session.field.value;
+    this.staysFitted = true;
     if (field) this.camera.value = fit(boundsOf(field.corners()), this.size, kFitMargin);
   }
 
   pan(dx: number, dy: number): void {
+    this.staysFitted = false;
     this.camera.value = panned(this.camera.value, dx, dy);
   }
 
   zoom(factor: number, at: Point = [this.size.width / 2, this.size.height / 2]): void {
+    this.staysFitted = false;
     this.camera.value = zoomed(this.camera.value, this.size, at, factor);
   }
 
@@ -203,13 +208,12 @@ export class MapView {
   private resize(host: HTMLElement): void {
     const { width, height } = host.getBoundingClientRect();
     if (width < 2 || height < 2) return;
-    const wasUnseen = this.size.width <= 1;
     this.size = { width, height };
     for (const canvas of [this.ground, this.glCanvas, this.canvas]) {
       canvas.width = Math.round(width * this.pixelRatio());
       canvas.height = Math.round(height * this.pixelRatio());
     }
-    if (wasUnseen) this.fitField();
+    if (this.staysFitted) this.fitField();
     this.isDirty = this.isGroundDirty = true;
   }
 

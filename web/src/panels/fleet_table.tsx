@@ -8,12 +8,12 @@ import { Icon, type IconName } from './icons';
 
 const kSeverityIcons: Record<string, IconName> = { ok: 'ok', info: 'info', warning: 'warning', alarm: 'alarm' };
 const kColumns = [
-  ['id', '13%'],
+  ['id', '12%'],
   ['state', '24%'],
   ['x, y (m)', '21%'],
   ['batt.', '9%'],
   ['link', '11%'],
-  ['m/s', '8%'],
+  ['m/s', '9%'],
   ['held by', '14%'],
 ] as const;
 

@@ -58,7 +58,7 @@ export function Plot(props: Props) {
       aria-label={`${props.title}: ${props.now}. ${props.description}`}
     >
       <h3 aria-hidden="true">
-        {props.title}
+        <span>{props.title}</span>
         <output>{props.now}</output>
       </h3>
       <div ref={host} style={{ position: 'absolute', inset: '24px 2px 0 0' }} />

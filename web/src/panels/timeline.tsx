@@ -16,7 +16,9 @@ export function Timeline() {
   const share = (time: number): string => `${(100 * (time - from)) / span}%`;
   const tickS = span <= 60 ? kTickS[0] : kTickS[1];
   const firstTick = Math.ceil((from + 0.02 * span) / tickS);
-  const ticks = Array.from({ length: Math.floor(span / tickS) }, (_, i) => (firstTick + i) * tickS);
+  const ticks = Array.from({ length: Math.floor(span / tickS) }, (_, i) => (firstTick + i) * tickS).filter(
+    (time) => time < from + 0.97 * span,
+  );
   const shown = session.events.value.filter((event) => event.time_s >= from && event.time_s <= now).slice(-60);
   return (
     <div class="timeline">
