@@ -88,9 +88,7 @@ const staged = (page: Page) => page.getByRole('region', { name: 'Staged edits' }
 const areaRow = (page: Page, name: string) => page.getByTestId(`area-${name}`);
 const metric = async (page: Page): Promise<number> =>
   Number.parseFloat(
-    /: ([\d.e-]+) %/.exec(
-      (await page.getByRole('img', { name: /^Ergodic metric/ }).getAttribute('aria-label'))!,
-    )?.[1] ?? 'NaN',
+    /: ([\d.e-]+) %/.exec((await page.getByRole('img', { name: /^Metric/ }).getAttribute('aria-label'))!)?.[1] ?? 'NaN',
   );
 const speedUp = (page: Page, factor: number) => page.getByLabel('Speed of the simulation').selectOption(String(factor));
 
@@ -146,7 +144,7 @@ describe('editing', () => {
     await areaRow(page, 'east').getByText('×4').waitFor();
   });
 
-  it('A point, a centre and the spread of a cluster are dragged; Escape drops it all', async () => {
+  it('A cluster is dragged by its centre, a point is moved by numbers; Escape drops it all', async () => {
     const page = await flyPaper();
     await areaRow(page, 'east').click();
     await page.getByRole('radio', { name: 'Select' }).click();

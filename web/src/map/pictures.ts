@@ -37,7 +37,12 @@ export function agePicture(age: AgeMap, deadlineS: number | null): RasterData & 
   return { width: age.width, height: age.height, values, scaleS };
 }
 
-export const ageStyle = (palette: Palette): RasterStyle => ({ ...kPlain, tint: palette.age });
+export const ageStyle = (palette: Palette): RasterStyle => ({
+  ...kPlain,
+  tint: palette.age,
+  mostAlpha: 0.55,
+  gamma: 1.3,
+});
 
 export const coverageStyle = (palette: Palette): RasterStyle => ({
   ...kPlain,

@@ -15,7 +15,8 @@ export function writeAreas(targets: Targets): unknown {
   const closed = (outline: readonly Point[]): readonly Point[] => (outline[0] ? [...outline, outline[0]] : []);
   const feature = (kind: string, entry: object, geometry: unknown): unknown => ({
     type: 'Feature',
-    properties: { kind, ...entry },
+    // What an entry does not have is left out, not null: other readers expect numbers.
+    properties: Object.fromEntries(Object.entries({ kind, ...entry }).filter(([, value]) => value !== null)),
     geometry,
   });
   return {

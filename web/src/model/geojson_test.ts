@@ -19,6 +19,10 @@ describe('GeoJSON', () => {
     expect(applied(readAreas(JSON.stringify(writeAreas(targets)), kNoTargets), kNoTargets)).toEqual(targets);
   });
 
+  it('An entry without a deadline has no deadline in the file', () => {
+    expect(JSON.stringify(writeAreas(targets))).not.toMatch('null');
+  });
+
   it('Names that are taken get a number', () => {
     const twice = applied(readAreas(JSON.stringify(writeAreas(targets)), targets), targets);
     expect(twice?.areas.map((entry) => entry.name)).toEqual(['ridge', 'ridge-2']);

@@ -8,13 +8,13 @@ import { Icon, type IconName } from './icons';
 
 const kSeverityIcons: Record<string, IconName> = { ok: 'ok', info: 'info', warning: 'warning', alarm: 'alarm' };
 const kColumns = [
-  ['id', '12%'],
-  ['state', '24%'],
-  ['x, y (m)', '21%'],
-  ['batt.', '9%'],
-  ['link', '11%'],
+  ['id', '15%'],
+  ['state', '23%'],
+  ['x, y (m)', '20%'],
+  ['batt.', '8%'],
+  ['link', '10%'],
   ['m/s', '9%'],
-  ['held by', '14%'],
+  ['held by', '15%'],
 ] as const;
 
 /** Every drone as a row; only the rows in view are in the page, however many drones there are. */

@@ -18,9 +18,9 @@ export function Help() {
   }, [isHelpOpen.value]);
 
   const pressed = (event: KeyboardEvent): void => {
-    event.stopPropagation();
     const action = asking.value;
     if (action === null) return;
+    event.stopPropagation();
     event.preventDefault();
     if (['Shift', 'Control', 'Alt', 'Meta'].includes(event.key)) return;
     asking.value = null;

@@ -7,6 +7,7 @@ import { kLayerNames, kLayers } from '../session/settings';
 import { useApp } from './app_context';
 import { Covers } from './covers';
 import { Icon } from './icons';
+import { SwarmHealth } from './program_health';
 import { StagingBar } from './staging_bar';
 import { usePopover } from './use_popover';
 
@@ -36,6 +37,7 @@ export function MapPanel() {
       </p>
       <div class="map-corner upper-left">
         <Legend />
+        <SwarmHealth />
       </div>
       <div class="map-corner upper-right">
         <LayersMenu />

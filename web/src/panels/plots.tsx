@@ -33,7 +33,7 @@ export function Plots() {
   return (
     <div class="plots">
       <Plot
-        title="Ergodic metric, % of first"
+        title="Metric, % of first"
         now={snapshot?.hasMetric ? `${snapshot.metricPercent.toPrecision(3)} %` : '–'}
         description="How far the swarm's time is from what was asked; it falls while the swarm covers."
         series={lines(['metric'])}

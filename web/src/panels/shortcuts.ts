@@ -22,14 +22,15 @@ export function listenForKeys(app: App): void {
   });
 }
 
-/** Letters belong to a text field, Enter and Space to a button that has the focus. */
+/** What must work wherever the focus is, but for a field in which one is typing. */
+const kAlways: readonly string[] = ['emergency-stop', 'land-all'];
+
+/** Letters belong to a text field, Enter and Space to a button that has the focus; a dialog or a list has all but alarms. */
 function belongsToField(event: KeyboardEvent, action: string): boolean {
   const target = event.target as HTMLElement;
-  if (target.closest('dialog[open]')) return true;
-  const isText = target.matches('input:not([type=checkbox]), textarea, select');
-  if (isText) return true;
-  const isButton = target.matches('button, a, input, summary');
-  return isButton && (action === 'commit' || action === 'place-here');
+  if (target.matches('input:not([type=checkbox]), textarea')) return true;
+  if (target.closest('dialog[open], select')) return !kAlways.includes(action);
+  return target.matches('button, a, input, summary') && (action === 'commit' || action === 'place-here');
 }
 
 function pressStop(app: App, stop: TwoPresses, now: number): void {

@@ -2,6 +2,7 @@ import type { SwarmEvent } from '../link/messages';
 import { clock } from '../model/units';
 import { useApp } from './app_context';
 import { Icon } from './icons';
+import { ProgramHealth } from './program_health';
 
 const kWindowS = 120;
 const kTickS = [10, 20] as const;
@@ -39,6 +40,7 @@ export function Timeline() {
           </span>
         ))}
       </div>
+      <ProgramHealth />
       <button type="button" class="quiet" onClick={() => (isLogOpen.value = !isLogOpen.value)}>
         <Icon name="log" />
         Events

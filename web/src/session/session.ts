@@ -166,8 +166,7 @@ export class Session {
   }
 
   private takeMission(mission: Mission): void {
-    const isAnother =
-      mission.epoch !== this.mission.value?.epoch || mission.mission.name !== this.mission.value.mission.name;
+    const isAnother = !isSameMission(mission, this.mission.value);
     this.mission.value = mission;
     if (!isAnother) return;
     this.snapshot = this.density = this.ghost = this.coverage = this.ageMap = this.trails = null;
@@ -202,12 +201,19 @@ export class Session {
     const isRestarted = events.length > 0 && events[events.length - 1]!.number < this.lastEvent;
     const known = isRestarted ? [] : this.events.value.filter((event) => event.number < first);
     this.events.value = [...known, ...events].slice(-kMostEvents);
-    const isHistory = this.lastEvent === 0;
-    for (const event of events) {
-      if (!isHistory && event.number > this.lastEvent && event.severity !== 'info' && event.source !== 'operator')
-        this.notify(event.severity, event.effect ? `${event.text}: ${event.effect}.` : event.text);
-    }
+    if (this.lastEvent > 0) this.announce(events.filter((event) => event.number > this.lastEvent && isNews(event)));
     this.lastEvent = events[events.length - 1]?.number ?? this.lastEvent;
+  }
+
+  /** One message for a few events, one for all of them where they are many: the log has each. */
+  private announce(news: readonly SwarmEvent[]): void {
+    const [first] = news;
+    if (!first) return;
+    const kind = news.some((event) => event.severity === 'alarm') ? 'alarm' : 'warning';
+    if (news.length > 2) this.notify(kind, `${first.text}, and ${news.length - 1} more: see the event log.`);
+    else
+      for (const event of news)
+        this.notify(event.severity, event.effect ? `${event.text}: ${event.effect}.` : event.text);
   }
 
   private takeFrame(frame: Frame): void {
@@ -296,3 +302,9 @@ export class Session {
     void this.link.command({ type: 'editing', what });
   }
 }
+
+/** What its own operator did is no news to a console. */
+const isNews = (event: SwarmEvent): boolean => event.severity !== 'info' && event.source !== 'operator';
+
+const isSameMission = (a: Mission, b: Mission | null): boolean =>
+  a.epoch === b?.epoch && a.mission.name === b.mission.name && a.mission.drones.length === b.mission.drones.length;

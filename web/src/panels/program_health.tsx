@@ -1,0 +1,47 @@
+import { useApp } from './app_context';
+import { Icon } from './icons';
+
+/** How the program itself is: whether its ticks are on time, and whether the flight is recorded. */
+export function ProgramHealth() {
+  const { session } = useApp();
+  void session.beat.value;
+  const status = session.status.value;
+  const lateMs = (session.snapshot?.latenessP99Us ?? NaN) / 1000;
+  const recording = status?.recording;
+  const hasLost = (recording?.lost_ticks ?? 0) > 0 || (recording?.error ?? '') !== '';
+  return (
+    <p class="health">
+      <span title="How late control ticks begin: 99 of 100 are not later than this">
+        ticks late {Number.isNaN(lateMs) ? '–' : `${lateMs.toFixed(lateMs < 10 ? 2 : 0)} ms`}
+      </span>
+      {recording ? (
+        <span class={hasLost ? 'alarm' : ''} title={recording.error || `into ${recording.folder}`}>
+          {hasLost ? `recording lost ${recording.lost_ticks} ticks` : `recorded ${recording.ticks} ticks`}
+        </span>
+      ) : (
+        <span>not recorded</span>
+      )}
+    </p>
+  );
+}
+
+const kIdle = ['', 'No targets: the drones hover.', 'No drone is active: nothing is covered.'];
+
+/** What keeps the swarm from covering, or from keeping every rule; nothing while all is well. */
+export function SwarmHealth() {
+  const { session } = useApp();
+  void session.beat.value;
+  const { snapshot } = session;
+  if (!snapshot) return null;
+  const said = [
+    kIdle[snapshot.idle] ?? '',
+    snapshot.isFallback ? 'For some drone no velocity satisfies every rule.' : '',
+  ].filter((text) => text !== '');
+  if (said.length === 0) return null;
+  return (
+    <div class="legend warning" role="status">
+      <Icon name="warning" small />
+      {said.join(' ')}
+    </div>
+  );
+}
