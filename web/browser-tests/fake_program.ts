@@ -74,7 +74,7 @@ export class FakeProgram {
       type: 'status',
       epoch: 1,
       areas: [area('cluster', 'east', 3.2, 30, 0.31, 0.28), area('area', 'ridge', 34, 30, 0.4, 0.35)],
-      recording: null,
+      recording: { folder: 'out/played', ticks: 1200, lost_ticks: 0 },
       lost_events: 0,
       clients: 1,
       lateness_us: { p50: 60, p99: 210, p999: 400, max: 900 },

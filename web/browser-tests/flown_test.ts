@@ -250,6 +250,22 @@ describe('drones', () => {
     await keepPicture(page, 'emergency_stop_flown');
   });
 
+  it('One is sent to a place, waits there, returns to where it started, and goes back to covering', async () => {
+    const page = await flyPaper();
+    await speedUp(page, 5);
+    await page.getByRole('button', { name: 'cf1', exact: true }).click();
+    await page.keyboard.press('j');
+    await clickAt(page, 0.2, 0.3);
+    const row = page.getByRole('row', { name: /cf1/ });
+    await row.getByText('Travelling').waitFor();
+    await row.getByText('0.20, 0.30').waitFor();
+    await keepPicture(page, 'sent_to_a_place');
+    await page.getByRole('button', { name: 'Return' }).click();
+    await row.getByText('-1.00, -1.00').waitFor();
+    await page.getByRole('button', { name: 'Resume' }).click();
+    await row.getByText('Active').waitFor();
+  });
+
   it('Orders from the keyboard go to the drones that digits select', async () => {
     const page = await flyPaper();
     await page.keyboard.press('2');

@@ -22,6 +22,10 @@ export async function serve(mission: string, options: readonly string[] = [], po
   const child = spawn(kProgram, ['serve', file, '--port', String(port), '--page', page, ...options], {
     stdio: ['ignore', 'pipe', 'pipe'],
   });
+  // A test run that ends in whatever way leaves no program behind.
+  const takeAlong = (): void => void child.kill('SIGKILL');
+  process.once('exit', takeAlong);
+  child.once('exit', () => process.off('exit', takeAlong));
   const ended = new Promise<void>((done) => child.once('exit', () => done()));
   const end = (signal: NodeJS.Signals) => async (): Promise<void> => {
     child.kill(signal);

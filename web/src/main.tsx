@@ -37,13 +37,14 @@ function identityOf(name: string, token: string, role: string): Record<string, u
 function makeApp(): App {
   const settings = new Settings();
   const session = new Session(world, identityOf(settings.name.value, '', ''));
-  const editor = new Editor(session);
+  const editor: Editor = new Editor(session, (place) => orders.goTo(place));
+  const orders = new FleetOrders(session, editor);
   let token = '';
   return {
     session,
     editor,
     settings,
-    orders: new FleetOrders(session, editor),
+    orders,
     map: signal<MapView | null>(null),
     isHelpOpen: signal(false),
     isLogOpen: signal(false),

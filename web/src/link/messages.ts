@@ -105,7 +105,7 @@ const statusShape = record({
     }),
     2000,
   ),
-  recording: maybe(record({ folder: sentence, ticks: finite, lost_ticks: finite, error: sentence })),
+  recording: maybe(record({ folder: sentence, ticks: finite, lost_ticks: finite })),
   lost_events: finite,
   clients: finite,
   lateness_us: maybe(record({ p50: finite, p99: finite, max: finite })),

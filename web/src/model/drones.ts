@@ -49,6 +49,12 @@ export const kActivities: readonly ActivityWords[] = [
   activity('battery_low', 'Battery low', 'alarm', 'Below its reserve: it lands.'),
   activity('held', 'Held', 'info', 'An operator holds it. Resume sends it back to coverage.'),
   activity('recovering', 'Recovering', 'warning', 'It is well again and covers in a moment.'),
+  activity(
+    'travelling',
+    'Travelling',
+    'info',
+    'It flies to where an operator sent it and waits there. Resume sends it back to coverage.',
+  ),
 ];
 
 const kUnknownActivity = activity('unknown', 'Unknown', 'warning', 'This console does not know that state.');

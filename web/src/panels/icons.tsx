@@ -31,6 +31,8 @@ const kPaths = {
   alarm: 'M6.5 3h7L17 6.5v7L13.5 17h-7L3 13.5v-7zM7.5 7.5l5 5M12.5 7.5l-5 5',
   takeOff: 'M10 16V5M5.5 9L10 4.5 14.5 9M4 17.5h12',
   land: 'M10 3v11M5.5 10L10 14.5 14.5 10M4 17.5h12',
+  home: 'M3 10l7-6 7 6M5 9v8h10V9M8.5 17v-4h3v4',
+  goTo: 'M4 16c0-6 3-8 9-8M10 4.5L13.5 8 10 11.5M16.5 4v8',
   resume: 'M4 10a6 6 0 1 1 2 4.5M4 15v-4h4',
   giveBack: 'M3 10h11M10 6l4 4-4 4M17 4v12',
   cluster:

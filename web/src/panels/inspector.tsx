@@ -19,6 +19,7 @@ const kOrderIcons: Record<Order, IconName> = {
   take_off: 'takeOff',
   land: 'land',
   hold: 'pause',
+  return: 'home',
   resume: 'resume',
   mark_failed: 'alarm',
   give_back: 'giveBack',

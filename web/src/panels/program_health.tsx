@@ -8,14 +8,14 @@ export function ProgramHealth() {
   const status = session.status.value;
   const lateMs = (session.snapshot?.latenessP99Us ?? NaN) / 1000;
   const recording = status?.recording;
-  const hasLost = (recording?.lost_ticks ?? 0) > 0 || (recording?.error ?? '') !== '';
+  const hasLost = (recording?.lost_ticks ?? 0) > 0;
   return (
     <p class="health">
       <span title="How late control ticks begin: 99 of 100 are not later than this">
         ticks late {Number.isNaN(lateMs) ? '–' : `${lateMs.toFixed(lateMs < 10 ? 2 : 0)} ms`}
       </span>
       {recording ? (
-        <span class={hasLost ? 'alarm' : ''} title={recording.error || `into ${recording.folder}`}>
+        <span class={hasLost ? 'alarm' : ''} title={`into ${recording.folder}`}>
           {hasLost ? `recording lost ${recording.lost_ticks} ticks` : `recorded ${recording.ticks} ticks`}
         </span>
       ) : (

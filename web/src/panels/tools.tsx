@@ -11,6 +11,7 @@ const kLooks: Record<Tool, { icon: IconName; word: string; action: keyof typeof 
   area: { icon: 'area', word: 'Area', action: 'tool-area' },
   'no-fly': { icon: 'noFly', word: 'No-fly', action: 'tool-no-fly' },
   measure: { icon: 'measure', word: 'Measure', action: 'tool-measure' },
+  'go-to': { icon: 'goTo', word: 'Go to', action: 'tool-go-to' },
 };
 
 const isEditing = (tool: Tool): boolean => tool !== 'select' && tool !== 'measure';

@@ -16,7 +16,7 @@ import { isStaged, nothingStaged, redoStep, restage, stage, undoStep, type Step 
 import { find, freeName, pointsOf, withPoints, type Edit, type EntryName } from '../model/targets';
 import type { Session } from './session';
 
-export const kTools = ['select', 'point', 'lasso', 'brush', 'area', 'no-fly', 'measure'] as const;
+export const kTools = ['select', 'point', 'lasso', 'brush', 'area', 'no-fly', 'measure', 'go-to'] as const;
 export type Tool = (typeof kTools)[number];
 
 const kLassoPoints = 12;
@@ -42,7 +42,11 @@ export class Editor {
     return which && find(this.session.draft.value, which);
   });
 
-  constructor(readonly session: Session) {}
+  constructor(
+    readonly session: Session,
+    /** What the go-to tool does with a place of the field. */
+    private readonly sendTo: (place: Point) => void,
+  ) {}
 
   take(tool: Tool): void {
     this.tool.value = tool;
@@ -164,6 +168,10 @@ export class Editor {
       return true;
     }
     if (tool === 'select' || !this.isInside(p)) return false;
+    if (tool === 'go-to') {
+      this.sendTo(p);
+      return true;
+    }
     if (tool === 'area' || tool === 'no-fly') {
       if (this.mayEdit()) this.sketch.value = [...this.sketch.value, p].slice(0, kMostOutline);
       return true;

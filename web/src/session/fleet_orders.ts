@@ -1,14 +1,16 @@
+import type { Point } from '../model/geometry';
 import type { Editor } from './editor';
 import type { Session } from './session';
 
 /** What an operator may ask of drones, in the order of the buttons. */
-export const kOrders = ['take_off', 'land', 'hold', 'resume', 'mark_failed', 'give_back'] as const;
+export const kOrders = ['take_off', 'land', 'hold', 'return', 'resume', 'mark_failed', 'give_back'] as const;
 export type Order = (typeof kOrders)[number];
 
 export const kOrderNames: Record<Order, string> = {
   take_off: 'Take off',
   land: 'Land',
   hold: 'Hold',
+  return: 'Return',
   resume: 'Resume',
   mark_failed: 'Mark failed',
   give_back: 'Give back',
@@ -32,6 +34,17 @@ export class FleetOrders {
     const isAll = drones === 'all' || drones.length === this.session.droneIds.value.length;
     const who = isAll ? 'all drones' : drones.length > 3 ? `${drones.length} drones` : drones.join(', ');
     void this.session.command({ type: order, drones: isAll ? 'all' : drones }, `${kOrderNames[order]}: ${who}`);
+  }
+
+  /** The selected drones fly to a place of the world and wait there; all of them where none is selected. */
+  goTo(place: Point): void {
+    const drones = this.selectedIds();
+    const who = drones.length === 0 ? 'all drones' : drones.length > 3 ? `${drones.length} drones` : drones.join(', ');
+    const place_m = [place[0], place[1]];
+    void this.session.command(
+      { type: 'go_to', drones: drones.length === 0 ? 'all' : drones, place_m },
+      `On the way: ${who}`,
+    );
   }
 
   landAll(): void {
