@@ -128,7 +128,9 @@ function HeldBy({ drone }: { drone: number }) {
     ...(flags & kFlag.marginsGaveWay ? ['margins gave way'] : []),
     ...(flags & kFlag.fallback ? ['no velocity satisfies every rule'] : []),
   ];
-  if (reasons.length === 0) return <span class="dim">nothing: it does what coverage wants</span>;
+  const isCovering = activityOf(snapshot, drone).severity === 'ok';
+  if (reasons.length === 0)
+    return <span class="dim">{isCovering ? 'nothing: it does what coverage wants' : 'nothing'}</span>;
   return <span class="warning">{reasons.join('; ')}</span>;
 }
 

@@ -1,0 +1,179 @@
+import { describe, expect, it } from 'vitest';
+import { stage } from '../model/staging';
+import type { Edit } from '../model/targets';
+import { FakeWorld, kHello } from '../testing/fake_world';
+import { Editor } from './editor';
+import { Session } from './session';
+
+const kMission = {
+  type: 'mission',
+  epoch: 1,
+  fleet: 'SIM',
+  mission: { name: 'test', drones: [{ id: 'd1' }, { id: 'd2' }] },
+  display: {
+    field: { length_x_m: 3, length_y_m: 3, origin_m: [0, 0], yaw_rad: 0 },
+    dt_s: 0.02,
+    separation_m: 0.2,
+    wall_distance_m: 0.17,
+    barrier_radius_m: 0.2,
+    speed_limit_m_s: 0.3,
+    footprint_radius_m: 0.3,
+    sigma_min_m: 0.15,
+    can_change_speed: true,
+    can_pause: true,
+    most_speed: 20,
+  },
+};
+
+const targetsOf = (revision: number, weight: number, names = ['east'], by = 'Ana') => ({
+  type: 'targets',
+  epoch: 1,
+  revision,
+  by,
+  what: '',
+  can_undo: false,
+  can_redo: false,
+  undo_what: '',
+  redo_what: '',
+  clusters: names.map((name) => ({ name, points_m: [[1, 1]], weight, revisit_s: null })),
+  areas: [],
+  no_fly: [],
+  uniform_floor: 0,
+});
+
+const event = (number: number, severity: string, text: string, source = 'swarm') => ({
+  number,
+  tick: 0,
+  time_s: 0,
+  wall_ms: 0,
+  severity,
+  source,
+  what: 'landing',
+  drone: '',
+  was: '',
+  by: '',
+  text,
+  effect: '',
+  next: '', // prettier-ignore
+});
+
+/** Two drones at rest, as the program sends them. */
+function snapshotBytes(epoch = 1): ArrayBuffer {
+  const bytes = new ArrayBuffer(96 + 16 + 8 + 8 + 3 * 8 + 2 * 4 + 5 * 4);
+  const view = new DataView(bytes);
+  view.setUint32(0, 0x56474c31, false);
+  view.setUint8(4, 1);
+  view.setUint16(6, 96, true);
+  view.setUint32(8, epoch, true);
+  view.setUint32(12, 2, true);
+  view.setFloat32(84, 0.001, true);
+  return bytes;
+}
+
+function begin() {
+  const world = new FakeWorld();
+  const session = new Session(world, {});
+  session.link.open();
+  const socket = world.last;
+  socket.onopen?.();
+  for (const message of [kHello, kMission, targetsOf(1, 1)]) socket.say(message);
+  socket.onmessage?.({ data: snapshotBytes() });
+  world.pass(1); // beats are counted from 0
+  world.now = 1000;
+  socket.onmessage?.({ data: snapshotBytes() });
+  const sent = (type: string) => socket.sent.filter((message) => message['type'] === type);
+  const heavier: Edit = { op: 'set_weight', kind: 'cluster', name: 'east', weight: 4 };
+  const editor = new Editor(session, () => undefined);
+  return { world, session, socket, sent, heavier, editor };
+}
+
+const weightOf = (session: Session): number => session.draft.value.clusters[0]!.weight;
+const settled = async (): Promise<void> => {
+  for (let i = 0; i < 5; i++) await Promise.resolve();
+};
+
+describe('session', () => {
+  it('A staged edit asks for a ghost, and tells others what is edited', () => {
+    const { session, sent, heavier } = begin();
+    session.restage(stage(session.staging.value, { what: 'heavier', edits: [heavier] }, 1));
+    expect(weightOf(session)).toBe(4);
+    expect(sent('preview_density')).toMatchObject([{ based_on: 1, edits: [heavier] }]);
+    expect(sent('editing')).toMatchObject([{ what: [{ kind: 'cluster', name: 'east' }] }]);
+  });
+
+  it('While one ghost is on its way only the newest draft waits for the next', async () => {
+    const { session, socket, sent, heavier } = begin();
+    for (const weight of [2, 3, 4])
+      session.restage(stage(session.staging.value, { what: '', edits: [{ ...heavier, weight } as Edit] }, 1));
+    expect(sent('preview_density')).toHaveLength(1);
+    socket.say({ type: 'ack', id: sent('preview_density')[0]!['id'], tick: 1 });
+    await settled();
+    expect(sent('preview_density')).toHaveLength(2);
+    expect(sent('preview_density')[1]!['edits']).toHaveLength(3);
+  });
+
+  it.each(['the answer', 'the new targets'])('A commit is seen once, also when %s comes first', async (first) => {
+    const { session, socket, sent, editor, heavier } = begin();
+    editor.stage('heavier', heavier);
+    editor.stage('west', { op: 'add_point', kind: 'cluster', name: 'west', point_m: [1, 1] });
+    const names: string[][] = [];
+    const stop = session.draft.subscribe((draft) => names.push(draft.clusters.map((cluster) => cluster.name)));
+    const done = editor.commit();
+    const answer = { type: 'ack', id: sent('edit')[0]!['id'], tick: 1, revision: 2 };
+    const targets = targetsOf(2, 4, ['east', 'west']);
+    for (const message of first === 'the answer' ? [answer, targets] : [targets, answer]) {
+      socket.say(message);
+      await settled();
+    }
+    await done;
+    stop();
+    expect(session.isStaged.value).toBe(false);
+    for (const seen of names) expect(seen).toEqual(['east', 'west']);
+  });
+
+  it('A refused commit stays staged; after somebody else’s change it is based on what is there now', async () => {
+    const { session, socket, sent, editor, heavier } = begin();
+    editor.stage('heavier', heavier);
+    const done = editor.commit();
+    socket.say(targetsOf(2, 2, ['east'], 'Ben'));
+    socket.say({ type: 'refused', id: sent('edit')[0]!['id'], code: 'stale', reason: 'Ben changed east' });
+    await done;
+    expect(session.staging.value).toMatchObject({ basedOn: 2 });
+    expect(weightOf(session)).toBe(4);
+    expect(session.notices.value.map((notice) => notice.text)).toContain('Ben changed east');
+  });
+
+  it('What others remove takes the staged edits of it along, and says so', () => {
+    const { session, socket, editor, heavier } = begin();
+    editor.stage('heavier', heavier);
+    socket.say(targetsOf(2, 1, [], 'Ben'));
+    expect(session.isStaged.value).toBe(false);
+    expect(session.notices.value[0]?.text).toMatch(/Ben changed what you were editing: dropped “heavier”/);
+  });
+
+  it('Frames of another mission are left out', () => {
+    const { session, socket } = begin();
+    const before = session.snapshot;
+    socket.onmessage?.({ data: snapshotBytes(2) });
+    expect(session.snapshot).toBe(before);
+  });
+
+  it('Old events are history, new ones are said; many at once are said as one', () => {
+    const { session, socket } = begin();
+    socket.say({ type: 'events', events: [event(1, 'alarm', 'd1 was lost')] });
+    expect(session.notices.value).toEqual([]);
+    socket.say({ type: 'events', events: [event(2, 'alarm', 'd2 is lost'), event(3, 'info', 'd1 covers')] });
+    expect(session.notices.value.map((notice) => notice.text)).toEqual(['d2 is lost']);
+    socket.say({ type: 'events', events: [4, 5, 6].map((number) => event(number, 'warning', `d${number} lands`)) });
+    expect(session.notices.value.map((notice) => notice.text)).toContain('d4 lands, and 2 more: see the event log.');
+    expect(session.events.value).toHaveLength(6);
+  });
+
+  it('Nothing is staged while the connection is silent', () => {
+    const { world, session, editor, heavier } = begin();
+    world.pass(2000);
+    expect(session.isLive.value).toBe(false);
+    expect(editor.stage('heavier', heavier)).toBe(false);
+    expect(session.dataAgeS()).toBeGreaterThan(1.9);
+  });
+});
