@@ -101,6 +101,12 @@ describe('a console whose program is played', () => {
     expect(await page.getByTestId('why').textContent()).toMatch(/position is too old/);
     await page.getByRole('button', { name: 'd1', exact: true }).click();
     await expect.poll(() => page.getByTestId('held-by').textContent()).toBe('d4, 0.41 m');
+    const rows = page.getByRole('region', { name: 'Fleet table' }).getByRole('button');
+    await page.getByLabel('Show which drones').selectOption('not active');
+    await expect.poll(() => rows.allTextContents()).toEqual(['d2', 'd3']);
+    await page.getByLabel('Show which drones').selectOption('held back');
+    await expect.poll(() => rows.allTextContents()).toEqual(['d1', 'd4']);
+    await page.getByLabel('Show which drones').selectOption('all');
     expect(await page.getByTestId('active-count').textContent()).toMatch('3 of 5 active');
     await keepPicture(page, 'lost_drones');
   });

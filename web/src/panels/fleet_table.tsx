@@ -8,14 +8,33 @@ import { Icon, type IconName } from './icons';
 
 const kSeverityIcons: Record<string, IconName> = { ok: 'ok', info: 'info', warning: 'warning', alarm: 'alarm' };
 const kColumns = [
-  ['id', '15%'],
+  ['id', '14%'],
   ['state', '23%'],
   ['x, y (m)', '20%'],
-  ['batt.', '8%'],
-  ['link', '10%'],
+  ['batt.', '9%'],
+  ['link', '11%'],
   ['m/s', '9%'],
-  ['held by', '15%'],
+  ['held by', '14%'],
 ] as const;
+
+const kFilters = { all: 'all', away: 'not active', held: 'held back', selected: 'selected' } as const;
+type Filter = keyof typeof kFilters;
+
+/** The drones that a filter lets through, in their order. */
+function chosen(
+  filter: Filter,
+  snapshot: Snapshot,
+  held: Map<number, HoldingRow>,
+  selected: ReadonlySet<number>,
+): number[] {
+  const lets: Record<Filter, (drone: number) => boolean> = {
+    all: () => true,
+    away: (drone) => snapshot.activity[drone] !== 0,
+    held: (drone) => held.has(drone),
+    selected: (drone) => selected.has(drone),
+  };
+  return Array.from({ length: snapshot.n }, (_, drone) => drone).filter(lets[filter]);
+}
 
 /** Every drone as a row; only the rows in view are in the page, however many drones there are. */
 export function FleetTable() {
@@ -23,13 +42,19 @@ export function FleetTable() {
   const scroll = useSignal(0);
   const view = useRef<HTMLDivElement>(null);
   const rowHeight = useRowHeight();
-  const ids = session.droneIds.value;
+  const filter = useSignal<Filter>('all');
   void session.beat.value;
   const { snapshot } = session;
-  const shown = Math.ceil((view.current?.clientHeight ?? 400) / rowHeight) + 8;
-  const first = Math.max(0, Math.min(ids.length - shown, Math.floor(scroll.value / rowHeight) - 4));
+  const selected = editor.selectedDrones.value;
   const holders = snapshot ? firstHolders(snapshot) : new Map<number, HoldingRow>();
-  const rows = ids.slice(first, first + shown).map((_, i) => first + i);
+  const drones = snapshot ? chosen(filter.value, snapshot, holders, selected) : [];
+  const shown = Math.ceil((view.current?.clientHeight ?? 400) / rowHeight) + 8;
+  const first = Math.max(0, Math.min(drones.length - shown, Math.floor(scroll.value / rowHeight) - 4));
+  const rows = drones.slice(first, first + shown);
+  useEffect(() => {
+    const [drone] = selected;
+    if (selected.size === 1) showRow(view.current, drones.indexOf(drone!), rowHeight);
+  }, [selected]);
   return (
     <section class="fleet panel-body" aria-label="Fleet">
       <div class="panel" style={{ borderBottom: 0 }}>
@@ -37,8 +62,19 @@ export function FleetTable() {
           <h2>Fleet</h2>
           <span class="dim" data-testid="active-count">
             {snapshot ? `${snapshot.active} of ${snapshot.n} active` : '–'}
-            {editor.selectedDrones.value.size > 0 && `, ${editor.selectedDrones.value.size} selected`}
+            {selected.size > 0 && `, ${selected.size} selected`}
           </span>
+          <select
+            aria-label="Show which drones"
+            value={filter.value}
+            onChange={(event) => (filter.value = event.currentTarget.value as Filter)}
+          >
+            {Object.entries(kFilters).map(([value, words]) => (
+              <option key={value} value={value}>
+                {words}
+              </option>
+            ))}
+          </select>
         </header>
       </div>
       <div
@@ -49,7 +85,7 @@ export function FleetTable() {
         aria-label="Fleet table"
         onScroll={(event) => (scroll.value = event.currentTarget.scrollTop)}
       >
-        <table aria-rowcount={ids.length + 1}>
+        <table aria-rowcount={drones.length + 1}>
           <colgroup>
             {kColumns.map(([name, width]) => (
               <col key={name} style={{ width }} />
@@ -67,15 +103,26 @@ export function FleetTable() {
           <tbody>
             {first > 0 && <tr aria-hidden="true" style={{ height: `${first * rowHeight}px` }} />}
             {snapshot &&
-              rows.map((drone) => <Row key={drone} drone={drone} snapshot={snapshot} held={holders.get(drone)} />)}
-            {first + shown < ids.length && (
-              <tr aria-hidden="true" style={{ height: `${(ids.length - first - shown) * rowHeight}px` }} />
+              rows.map((drone, i) => (
+                <Row key={drone} drone={drone} index={first + i} snapshot={snapshot} held={holders.get(drone)} />
+              ))}
+            {first + shown < drones.length && (
+              <tr aria-hidden="true" style={{ height: `${(drones.length - first - shown) * rowHeight}px` }} />
             )}
           </tbody>
         </table>
       </div>
     </section>
   );
+}
+
+/** Scrolls as little as it takes to see the row; what is chosen on the map is then seen in the table as well. */
+function showRow(view: HTMLDivElement | null, index: number, rowHeight: number): void {
+  if (!view || index < 0) return;
+  const top = index * rowHeight;
+  if (top < view.scrollTop) view.scrollTop = top;
+  else if (top + 2 * rowHeight > view.scrollTop + view.clientHeight)
+    view.scrollTop = top + 2 * rowHeight - view.clientHeight;
 }
 
 function useRowHeight(): number {
@@ -86,7 +133,15 @@ function useRowHeight(): number {
   return isCoarse.value ? 46 : 38;
 }
 
-function Row({ drone, snapshot, held }: { drone: number; snapshot: Snapshot; held: HoldingRow | undefined }) {
+interface RowProps {
+  readonly drone: number;
+  /** Its place among the rows that are shown. */
+  readonly index: number;
+  readonly snapshot: Snapshot;
+  readonly held: HoldingRow | undefined;
+}
+
+function Row({ drone, index, snapshot, held }: RowProps) {
   const { session, editor } = useApp();
   const field = session.field.value;
   const id = session.droneIds.value[drone]!;
@@ -102,7 +157,7 @@ function Row({ drone, snapshot, held }: { drone: number; snapshot: Snapshot; hel
   };
   const holder = held && holderName(held, session.droneIds.value, session.committed.value.no_fly);
   return (
-    <tr class={isSelected ? 'is-selected' : ''} aria-rowindex={drone + 2} onClick={choose}>
+    <tr class={isSelected ? 'is-selected' : ''} aria-rowindex={index + 2} onClick={choose}>
       <td>
         <button
           type="button"
