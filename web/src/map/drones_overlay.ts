@@ -13,6 +13,8 @@ export interface DronesScene {
   readonly places: Float64Array;
   readonly ids: readonly string[];
   readonly selected: ReadonlySet<number>;
+  /** The drone under the pointer: named also where there are too many to name. */
+  readonly hovered: number | null;
   readonly field: FieldFrame;
   readonly noFly: readonly NoFly[];
   readonly showsLabels: boolean;
@@ -29,6 +31,7 @@ export function drawDroneNotes(pen: Pen, scene: DronesScene): void {
     if (isNoted.has(row.drone) && (isFew || scene.selected.has(row.drone))) drawHeldBy(pen, scene, row);
   for (const drone of scene.selected) if (isNoted.has(drone)) drawVectors(pen, scene, drone);
   if (scene.showsLabels) for (const drone of noted) drawId(pen, scene, drone);
+  if (scene.hovered !== null && !(scene.showsLabels && isNoted.has(scene.hovered))) drawId(pen, scene, scene.hovered);
 }
 
 const placeOf = (scene: DronesScene, drone: number): Point => [scene.places[2 * drone]!, scene.places[2 * drone + 1]!];

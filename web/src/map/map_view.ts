@@ -440,6 +440,7 @@ export class MapView {
         places: this.drones.places,
         ids: session.droneIds.value,
         selected: editor.selectedDrones.value,
+        hovered: this.hovered(),
         field,
         noFly: session.committed.value.no_fly,
         showsLabels: on.has('labels'),
@@ -453,6 +454,12 @@ export class MapView {
       extent: Math.max(...field.size),
     });
     if (on.has('grid')) drawRulers(pen);
+  }
+
+  private hovered(): number | null {
+    const pointer = this.pointer.value;
+    const found = pointer && this.hit(toScreen(this.camera.value, this.size, pointer), 12);
+    return found?.part === 'drone' ? found.drone : null;
   }
 
   private editedBy(): ReadonlyMap<string, string> {
