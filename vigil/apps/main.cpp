@@ -11,6 +11,7 @@
 #include "vigil/apps/campaign_command.hpp"
 #include "vigil/apps/check_command.hpp"
 #include "vigil/apps/failure.hpp"
+#include "vigil/apps/margins_command.hpp"
 #include "vigil/apps/report_command.hpp"
 #include "vigil/apps/serve_command.hpp"
 #include "vigil/apps/simulate_command.hpp"
@@ -24,6 +25,7 @@ struct Arguments {
   SimulateOptions simulate;
   CampaignOptions campaign;
   CheckOptions check;
+  MarginsOptions margins;
   ReportArguments report;
   ServeOptions serve;
 };
@@ -106,6 +108,16 @@ CLI::App* add_check(CLI::App& program, CheckOptions& options) {
   return command;
 }
 
+CLI::App* add_margins(CLI::App& program, MarginsOptions& options) {
+  CLI::App* command =
+      program.add_subcommand("margins", "Compute what lag, gains and margins a mission's vehicles need, and what of");
+  command->add_option("MISSION", options.mission, "The mission file (YAML)")->required();
+  command->add_flag("--json", options.json, "Print JSON instead of a text");
+  add_settings(command, options.settings);
+  command->footer(exit_codes("", false));
+  return command;
+}
+
 CLI::App* add_report(CLI::App& program, ReportArguments& arguments) {
   CLI::App* command = program.add_subcommand("report", "Draw the figures of a recording (SVG and PNG) and report.html");
   command->add_option("DIR", arguments.directory, "The directory that simulate wrote")->required();
@@ -149,6 +161,7 @@ int run(int argc, char** argv) {
   const CLI::App* simulate_command = add_simulate(program, arguments.simulate);
   const CLI::App* campaign_command = add_campaign(program, arguments.campaign);
   const CLI::App* check_command = add_check(program, arguments.check);
+  const CLI::App* margins_command = add_margins(program, arguments.margins);
   const CLI::App* report_command = add_report(program, arguments.report);
   const CLI::App* serve_command = add_serve(program, arguments.serve);
   const CLI::App* schema_command =
@@ -165,6 +178,7 @@ int run(int argc, char** argv) {
   if (simulate_command->parsed()) return simulate(arguments.simulate);
   if (campaign_command->parsed()) return campaign(arguments.campaign);
   if (check_command->parsed()) return check(arguments.check);
+  if (margins_command->parsed()) return margins(arguments.margins);
   if (report_command->parsed()) return report(arguments.report);
   if (serve_command->parsed()) return serve(arguments.serve, VIGIL_VERSION);
   if (schema_command->parsed()) return print_schema();

@@ -32,6 +32,13 @@ constexpr std::array<Choice, 2> kObstacles{{
     {"active_only", "the paper: a drone that is not active is no obstacle, wherever it is"},
 }};
 
+constexpr std::array<Choice, 4> kAssumedVehicle{{
+    {"simulated", "that of `simulation.vehicle`"},
+    {"crazyflie", "a Crazyflie as recorded"},
+    {"arducopter", "ArduCopter as recorded"},
+    {"px4", "PX4 as recorded"},
+}};
+
 constexpr Range kGain{0.0, 1e9, false};
 constexpr Range kLength{0.0, 1e5, false};
 constexpr Range kLengthOrZero{0.0, 1e5};
@@ -50,7 +57,9 @@ void describe_ranges(DescriptionVisitor& visitor, SafetySection& safety) {
 }
 
 void describe_gains(DescriptionVisitor& visitor, SafetySection& safety) {
-  constexpr std::string_view kDefault = "10 for `paper` (gamma(h) = gain h^3), 5 for `lag_aware` (gain h, 1/s)";
+  constexpr std::string_view kDefault =
+      "10 for `paper` (gamma(h) = gain h^3); for `lag_aware` (gain h, 1/s) derived, or 5 where lag_s and margin_m are "
+      "given";
   visitor.number({.name = "pair_gain", .meaning = "how late drones give way to each other", .default_text = kDefault},
                  kGain, safety.pair_gain);
   visitor.number({.name = "wall_gain",
@@ -121,32 +130,37 @@ void describe(DescriptionVisitor& visitor, SafetySection& safety) {
   visitor.choice({.name = "barrier", .meaning = "the barrier function that keeps distances"}, kBarrier, safety.barrier);
   describe_distances(visitor, safety);
   describe_gains(visitor, safety);
+  visitor.choice({.name = "vehicle",
+                  .meaning = "the vehicle for which what follows is derived where it is not given; `lag_aware` only"},
+                 kAssumedVehicle, safety.vehicle);
   visitor.number({.name = "lag_s",
                   .meaning = "the time constant with which a vehicle follows its velocity command; `lag_aware` only",
-                  .unit = "s"},
+                  .unit = "s",
+                  .default_text = "derived for the vehicle"},
                  {0.0, 10.0}, safety.lag_s);
   visitor.number(
       {.name = "margin_m",
        .meaning =
            "how far a drone may be from where it is believed to be, by noise, wind and limits: kept beyond walls "
            "and no-fly buffers; `lag_aware` only",
-       .unit = "m"},
+       .unit = "m",
+       .default_text = "derived for the vehicle and the simulated world"},
       {0.0, 1000.0}, safety.margin_m);
   visitor.number({.name = "pair_margin_m",
                   .meaning = "the same for two drones: kept beyond separation_m; `lag_aware` only",
                   .unit = "m",
-                  .default_text = "twice margin_m"},
+                  .default_text = "twice margin_m where that is given, otherwise derived"},
                  {0.0, 1000.0}, safety.pair_margin_m);
   visitor.number({.name = "command_delay_s",
                   .meaning = "from a decision to the moment at which vehicles begin to follow it: drones are steered "
                              "from where they will be then; `lag_aware` only",
                   .unit = "s",
-                  .default_text = "that of the simulated vehicle"},
+                  .default_text = "derived: dead time, link, half of the time between two packets"},
                  {0.0, swarm::kLongestPredictionS}, safety.command_delay_s);
   visitor.number({.name = "observation_delay_s",
                   .meaning = "how old observations usually are: only what is older counts as unknown; `lag_aware` only",
                   .unit = "s",
-                  .default_text = "that of the simulated tracker"},
+                  .default_text = "derived: the greatest while nothing is lost"},
                  {0.0, swarm::kLongestPredictionS}, safety.observation_delay_s);
   describe_ranges(visitor, safety);
   visitor.choice({.name = "obstacles", .meaning = "which drones the others avoid"}, kObstacles, safety.obstacles);

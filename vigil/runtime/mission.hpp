@@ -98,19 +98,23 @@ enum class Obstacles : std::uint8_t {
   kActiveOnly  ///< the paper: a drone that is not active is no obstacle, wherever it is
 };
 
+/// The vehicle that the filter is set up for.
+enum class AssumedVehicle : std::uint8_t { kSimulated, kCrazyflie, kArduCopter, kPx4 };
+
 struct SafetySection {
   safety::BarrierKind barrier = safety::BarrierKind::kLagAware;
   double separation_m = 0.0;                 ///< R_s
   std::optional<double> contact_distance_m;  ///< default: half of R_s
   double wall_distance_m = 0.0;              ///< R_wall
   std::optional<double> no_fly_buffer_m;     ///< default: R_wall
-  std::optional<double> pair_gain;           ///< default 10 for `paper`, 5 for `lag_aware`
+  std::optional<double> pair_gain;           ///< default 10 for `paper`, derived for `lag_aware`
   std::optional<double> wall_gain;
-  double lag_s = 0.0;
-  double margin_m = 0.0;                      ///< beyond walls and no-fly buffers
-  std::optional<double> pair_margin_m;        ///< beyond R_s; default: twice margin_m
-  std::optional<double> command_delay_s;      ///< made up for; default: the simulated one
-  std::optional<double> observation_delay_s;  ///< made up for; default: the simulated one
+  AssumedVehicle vehicle = AssumedVehicle::kSimulated;  ///< for which what is absent below is derived
+  std::optional<double> lag_s;                          ///< default derived, like all that follows
+  std::optional<double> margin_m;                       ///< beyond walls and no-fly buffers
+  std::optional<double> pair_margin_m;                  ///< beyond R_s; where margin_m is given: twice that
+  std::optional<double> command_delay_s;                ///< made up for
+  std::optional<double> observation_delay_s;            ///< made up for
   std::optional<double> sensing_range_m;      ///< default derived
   std::optional<double> wall_range_m;         ///< R_threat, default derived
   Obstacles obstacles = Obstacles::kAirborne;

@@ -85,8 +85,8 @@ void check_lag(const Mission& mission, const MissionSource& source) {
                    .valid = "must be 0 there",
                    .advice = "take `barrier: lag_aware`, or leave it out"});
   };
-  if (mission.safety.lag_s > 0.0) refuse_for_paper("safety.lag_s");
-  if (mission.safety.margin_m > 0.0) refuse_for_paper("safety.margin_m");
+  if (mission.safety.lag_s.value_or(0.0) > 0.0) refuse_for_paper("safety.lag_s");
+  if (mission.safety.margin_m.value_or(0.0) > 0.0) refuse_for_paper("safety.margin_m");
   if (mission.safety.pair_margin_m.value_or(0.0) > 0.0) refuse_for_paper("safety.pair_margin_m");
 }
 
@@ -263,9 +263,9 @@ void check_numbers(const Mission& mission, const MissionSource& source) {
   check_distances(mission, source);
   check_memory(mission, source);
   check_lag(mission, source);
-  check_ranges(mission, source);
   check_duration(mission, source);
   check_simulation(mission, source);
+  check_ranges(mission, source);  // needs the margins that the simulated world leads to
 }
 
 void check_drones(const Mission& mission, const MissionSource& source) {

@@ -147,7 +147,7 @@ std::string explain_control(const Mission& mission) {
   return text;
 }
 
-std::string explain_barrier(const Mission& mission, const safety::BarrierParameters& barrier) {
+std::string explain_barrier(const safety::BarrierParameters& barrier) {
   if (barrier.kind == safety::BarrierKind::kPaper) {
     return fmt::format("paper: (10), (11) as printed, gamma(h) = {:.6g} h^3 for pairs, {:.6g} h^3 for walls",
                        barrier.pair_gain, barrier.wall_gain);
@@ -155,13 +155,18 @@ std::string explain_barrier(const Mission& mission, const safety::BarrierParamet
   return fmt::format(
       "lag_aware: keeps {:.6g} m between drones that lag by {:.6g} s, gamma(h) = {:.6g} h for pairs, {:.6g} h for "
       "walls",
-      safety::barrier_radius(barrier), mission.safety.lag_s, barrier.pair_gain, barrier.wall_gain);
+      safety::barrier_radius(barrier), barrier.lag_s, barrier.pair_gain, barrier.wall_gain);
 }
 
 std::string explain_safety(const Mission& mission) {
   const safety::BarrierParameters barrier = barrier_parameters(mission);
   std::string text = "safety\n";
-  text += line("barrier", explain_barrier(mission, barrier));
+  text += line("barrier", explain_barrier(barrier));
+  if (barrier.kind == safety::BarrierKind::kLagAware) {
+    text += line("margins", fmt::format("{} between drones, {} to walls; `vigil margins` says what of",
+                                        given_or_derived(mission.safety.pair_margin_m, barrier.pair_margin_m),
+                                        given_or_derived(mission.safety.margin_m, barrier.margin_m)));
+  }
   text +=
       line("separation", fmt::format("R_s {}; bodies touch at {}", in_words(barrier.separation_m, "m"),
                                      given_or_default(mission.safety.contact_distance_m, barrier.contact_distance_m)));
@@ -282,6 +287,9 @@ Json safety_json(const Mission& mission) {
           {"no_fly_buffer_m", barrier.no_fly_buffer_m},
           {"pair_gain", barrier.pair_gain},
           {"wall_gain", barrier.wall_gain},
+          {"lag_s", barrier.lag_s},
+          {"margin_m", barrier.margin_m},
+          {"pair_margin_m", barrier.pair_margin_m},
           {"sensing_range_m", barrier.sensing_range_m.value_or(safety::derived_sensing_range(barrier))},
           {"least_sensing_range_m", safety::least_sensing_range(barrier)},
           {"wall_range_m", barrier.wall_range_m ? Json(*barrier.wall_range_m) : Json(nullptr)},

@@ -6,6 +6,7 @@
 #include "vigil/core/dynamics/failsafe.hpp"
 #include "vigil/core/field/density.hpp"
 #include "vigil/runtime/mission_explanation.hpp"
+#include "vigil/runtime/mission_margins.hpp"
 #include "vigil/runtime/mission_setup.hpp"
 
 namespace vigil::runtime {
@@ -18,17 +19,6 @@ bool has_lag(const Mission& mission) { return mission.simulation.vehicle.model !
 
 bool is_first_order(const Mission& mission) {
   return mission.simulation.vehicle.model == dynamics::VehicleKind::kFirstOrderLag;
-}
-
-/// Anything beside a first-order lag between what the filter assumes and what is simulated.
-bool is_imperfect(const SimulationSection& simulation) {
-  const TrackerSection& tracker = simulation.tracker;
-  const LinkSection& link = simulation.link;
-  return simulation.vehicle.model > dynamics::VehicleKind::kFirstOrderLag || simulation.vehicle.command_delay_s > 0.0 ||
-         simulation.vehicle.acceleration_limit_m_s2 || tracker.noise_m > 0.0 || tracker.bias_m > 0.0 ||
-         tracker.delay_s > 0.0 || tracker.jitter_s > 0.0 || tracker.dropouts_per_min > 0.0 ||
-         tracker.swaps_per_h > 0.0 || simulation.wind.gust_m_s > 0.0 || link.loss > 0.0 || link.delay_s > 0.0 ||
-         link.jitter_s > 0.0;
 }
 
 /// Between two of what comes so often, or every tick.
@@ -48,23 +38,43 @@ void note_targets(const Mission& mission, Notes& notes) {
       "No target can be seen: next to nothing of them is inside the field and outside no-fly polygons. Drones hover.");
 }
 
-void note_barrier(const Mission& mission, Notes& notes) {
+/// Where less is given than what would have been derived.
+void note_below(std::string_view key, const std::optional<double>& given, double derived, Notes& notes) {
+  constexpr double kRounding = 1e-3;
+  if (!given || *given >= derived - kRounding) return;
+  notes.push_back(
+      fmt::format("safety.{} ({:.4g} m) is less than what this vehicle and what it meets need, {:.4g} m: "
+                  "separation may be missed by what they cost; `vigil margins` prints the parts.",
+                  key, *given, derived));
+}
+
+/// A mission that gives values of its own is compared with what they should be for its lag and gains.
+void note_margins(const Mission& mission, Notes& notes) {
+  const SafetySection& safety = mission.safety;
   const VehicleSection& vehicle = mission.simulation.vehicle;
+  if (is_first_order(mission) && safety.lag_s && *safety.lag_s < vehicle.lag_s) {
+    notes.push_back(
+        fmt::format("safety.lag_s ({} s) is less than the vehicle's lag ({} s): separation is not guaranteed.",
+                    *safety.lag_s, vehicle.lag_s));
+  }
+  if (!safety.margin_m && !safety.pair_margin_m) return;
+  const safety::BarrierParameters barrier = barrier_parameters(mission);
+  MarginProblem problem = margin_problem(mission);
+  problem.given_lag_s = barrier.lag_s;
+  problem.given_pair_gain = barrier.pair_gain;
+  problem.given_wall_gain = barrier.wall_gain;
+  const Margins needed = derive_margins(problem);
+  note_below("margin_m", safety.margin_m, needed.wall.total(), notes);
+  note_below("pair_margin_m", barrier.pair_margin_m, needed.pair.total(), notes);
+}
+
+void note_barrier(const Mission& mission, Notes& notes) {
   if (is_paper_barrier(mission) && has_lag(mission)) {
     notes.emplace_back(
         "The barrier `paper` is safe only for vehicles that follow their velocity at once; this vehicle lags: "
         "expect violations, or take `barrier: lag_aware`.");
   }
-  if (!is_paper_barrier(mission) && is_first_order(mission) && mission.safety.lag_s < vehicle.lag_s) {
-    notes.push_back(
-        fmt::format("safety.lag_s ({} s) is less than the vehicle's lag ({} s): separation is not guaranteed.",
-                    mission.safety.lag_s, vehicle.lag_s));
-  }
-  if (is_imperfect(mission.simulation) && mission.safety.margin_m == 0.0) {
-    notes.emplace_back(
-        "Delay, noise, losses, gusts or more than a lag are simulated, but safety.margin_m is 0: separation may "
-        "be missed by what they cost.");
-  }
+  if (!is_paper_barrier(mission)) note_margins(mission, notes);
 }
 
 void note_ranges(const Mission& mission, Notes& notes) {

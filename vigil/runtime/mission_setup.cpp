@@ -4,11 +4,31 @@
 #include <iterator>
 
 #include "vigil/core/ergodic/look_ahead.hpp"
+#include "vigil/runtime/mission_margins.hpp"
 
 namespace vigil::runtime {
 namespace {
 
-double default_gain(safety::BarrierKind kind) { return kind == safety::BarrierKind::kPaper ? 10.0 : 5.0; }
+/// What the mission gives of how the barriers are set; the paper's have no more than gains.
+void set_given(const SafetySection& safety, safety::BarrierParameters& barrier) {
+  const double gain = safety.barrier == safety::BarrierKind::kPaper ? 10.0 : 5.0;
+  barrier.pair_gain = safety.pair_gain.value_or(gain);
+  barrier.wall_gain = safety.wall_gain.value_or(gain);
+  barrier.lag_s = safety.lag_s.value_or(0.0);
+  barrier.margin_m = safety.margin_m.value_or(0.0);
+  barrier.pair_margin_m = safety.pair_margin_m.value_or(2.0 * barrier.margin_m);
+}
+
+void set_derived(const Mission& mission, safety::BarrierParameters& barrier) {
+  const Margins margins = derived_margins(mission);
+  const SafetySection& safety = mission.safety;
+  barrier.pair_gain = margins.pair_gain;
+  barrier.wall_gain = margins.wall_gain;
+  barrier.lag_s = margins.lag_s;
+  barrier.margin_m = safety.margin_m.value_or(margins.wall.total());
+  const double pair_margin_m = safety.margin_m ? 2.0 * *safety.margin_m : margins.pair.total();
+  barrier.pair_margin_m = safety.pair_margin_m.value_or(pair_margin_m);
+}
 
 }  // namespace
 
@@ -60,28 +80,29 @@ std::optional<double> memory_s(const Mission& mission) {
 
 safety::BarrierParameters barrier_parameters(const Mission& mission) {
   const SafetySection& safety = mission.safety;
-  return {.kind = safety.barrier,
-          .separation_m = safety.separation_m,
-          .contact_distance_m = safety.contact_distance_m.value_or(0.5 * safety.separation_m),
-          .wall_distance_m = safety.wall_distance_m,
-          .no_fly_buffer_m = safety.no_fly_buffer_m.value_or(safety.wall_distance_m),
-          .u_max_m_s = mission.control.speed_limit_m_s,
-          .dt_s = tick_s(mission),
-          .pair_gain = safety.pair_gain.value_or(default_gain(safety.barrier)),
-          .wall_gain = safety.wall_gain.value_or(default_gain(safety.barrier)),
-          .lag_s = safety.lag_s,
-          .margin_m = safety.margin_m,
-          .pair_margin_m = safety.pair_margin_m.value_or(2.0 * safety.margin_m),
-          .sensing_range_m = safety.sensing_range_m,
-          .wall_range_m = safety.wall_range_m};
+  safety::BarrierParameters barrier{.kind = safety.barrier,
+                                    .separation_m = safety.separation_m,
+                                    .contact_distance_m = safety.contact_distance_m.value_or(0.5 * safety.separation_m),
+                                    .wall_distance_m = safety.wall_distance_m,
+                                    .no_fly_buffer_m = safety.no_fly_buffer_m.value_or(safety.wall_distance_m),
+                                    .u_max_m_s = mission.control.speed_limit_m_s,
+                                    .dt_s = tick_s(mission),
+                                    .sensing_range_m = safety.sensing_range_m,
+                                    .wall_range_m = safety.wall_range_m};
+  const bool is_given = safety.barrier == safety::BarrierKind::kPaper || (safety.lag_s && safety.margin_m);
+  if (is_given)
+    set_given(safety, barrier);
+  else
+    set_derived(mission, barrier);
+  return barrier;
 }
 
 double command_delay_s(const Mission& mission) {
-  return mission.safety.command_delay_s.value_or(mission.simulation.vehicle.command_delay_s);
+  return mission.safety.command_delay_s.value_or(derived_command_delay_s(mission));
 }
 
 double observation_delay_s(const Mission& mission) {
-  return mission.safety.observation_delay_s.value_or(mission.simulation.tracker.delay_s);
+  return mission.safety.observation_delay_s.value_or(derived_observation_delay_s(mission));
 }
 
 double goal_radius_m(const Mission& mission) {

@@ -31,10 +31,11 @@ namespace vigil::runtime {
 /// The time constant with which past coverage fades: control.memory_s, by default 20 times what a drone needs along the
 /// field's longer side at control.speed_limit_m_s. None where control.memory is endless.
 [[nodiscard]] std::optional<double> memory_s(const Mission& mission);
-/// All that the filter is to keep. Its ranges stay unset where the mission leaves them to be derived.
+/// All that the filter is to keep. Lag, gains and margins are derived_margins() where the mission gives none; its
+/// ranges stay unset where it leaves them to be derived.
 [[nodiscard]] safety::BarrierParameters barrier_parameters(const Mission& mission);
-/// What the controller makes up for: safety.command_delay_s and safety.observation_delay_s, by default what the
-/// simulated vehicle and tracker take.
+/// What the controller makes up for: safety.command_delay_s and safety.observation_delay_s, by default
+/// derived_command_delay_s() and derived_observation_delay_s().
 [[nodiscard]] double command_delay_s(const Mission& mission);
 [[nodiscard]] double observation_delay_s(const Mission& mission);
 /// simulation.goals.radius_m, by default 0.6 times the barrier's radius. Precondition: the mission has goals.

@@ -27,6 +27,7 @@ struct VelocityLoop {
   double acceleration_limit_m_s2 = kUnlimited;  ///< A > 0
   double jerk_limit_m_s3 = kUnlimited;          ///< J > 0
   double response_delay_s = 0.0;                ///< dead time before a command acts: the caller delays the command
+  friend bool operator==(const VelocityLoop&, const VelocityLoop&) = default;
 };
 
 /// Whether the velocity follows the command at once.
