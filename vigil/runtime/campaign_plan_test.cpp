@@ -74,8 +74,8 @@ TEST(CampaignPlan, Values_fill_their_range_and_every_choice_comes_up) {
     const Mission mission = draw_run(plan, number).mission;
     indices.insert(mission.control.basis_max_index);
     obstacles.insert(mission.safety.obstacles);
-    low = std::min(low, mission.safety.margin_m);
-    high = std::max(high, mission.safety.margin_m);
+    low = std::min(low, mission.safety.margin_m.value());
+    high = std::max(high, mission.safety.margin_m.value());
   }
   EXPECT_EQ(indices, (std::set<int>{5, 6, 7}));
   EXPECT_EQ(obstacles.size(), 2U);

@@ -14,13 +14,15 @@
 namespace vigil::runtime {
 namespace {
 
-constexpr double kGreatestGain = 5.0;   // 1/s: as fast as the filter leaves a broken barrier
-constexpr double kReserve = 1.5;        // the search for the worst flight is no proof
-constexpr double kLeastReserve = 0.15;  // of the way of a lag: nor does it find everything
-constexpr double kBiasSigmas = 5.0;     // a bias takes a few values in a flight
-constexpr double kNoiseSigmas = 6.0;    // noise many thousands
-constexpr double kFlownGain = 1.25;     // flown so much more eagerly than they will be: just beyond may lie a cliff
-constexpr double kSlowing = 0.1;        // what a metre of slowing down weighs beside a metre of margin
+constexpr double kGreatestGain = 5.0;    // 1/s: as fast as the filter leaves a broken barrier
+constexpr double kBelievedSigmas = 3.0;  // or what is believed breaks R_s where margins contradict each other
+constexpr double kReserve = 1.5;         // the search for the worst flight is no proof
+constexpr double kLeastReserve = 0.15;   // of the way of a lag: nor does it find everything
+constexpr double kBiasSigmas = 5.0;      // a bias takes a few values in a flight
+constexpr double kNoiseSigmas = 6.0;     // noise many thousands
+constexpr double kFlownGain = 1.25;      // flown so much more eagerly than they will be: just beyond may lie a cliff
+constexpr double kBrakingShare = 0.8;
+constexpr double kSlowing = 0.1;  // what a metre of slowing down weighs beside a metre of margin
 constexpr double kGainStep = 0.65;
 constexpr int kGainSteps = 7;
 constexpr std::array kLagShares = {1.0, 1.4};
@@ -50,13 +52,23 @@ double longest_blindness_s(const MarginProblem& problem) {
   return problem.silence_s > 0.0 ? problem.silence_s + problem.observation_delay_s + problem.command_delay_s : 0.0;
 }
 
+/// A barrier asks for a braking of gain x u_max. Where a stop from u_max meets a limit of acceleration anyway, asking
+/// for more than the limit means being later than asked.
+double greatest_gain_by_braking(const MarginProblem& problem) {
+  const double limit_m_s2 = std::min(problem.loop.acceleration_limit_m_s2,
+                                     problem.acceleration_limit_m_s2.value_or(dynamics::VelocityLoop::kUnlimited));
+  const bool is_limited = problem.u_max_m_s > limit_m_s2 * nominal_lag(problem.loop);
+  return is_limited ? kBrakingShare * limit_m_s2 / problem.u_max_m_s : kGreatestGain;
+}
+
 /// A drone that goes on by an old order covers gain x h0 x L of the h0 that it had; of a pair the other one gives way
 /// by its row meanwhile: h(t) = h0 (2 exp(-gain t) - 1).
 double greatest_gain(const MarginProblem& problem, Boundary boundary) {
   const double blind_s = longest_blindness_s(problem);
   const double product = boundary == Boundary::kPair ? std::numbers::ln2 : 1.0;
   const double by_tick = 0.2 / problem.dt_s;
-  return std::min({kGreatestGain, by_tick, blind_s > 0.0 ? product / blind_s : kGreatestGain});
+  return std::min(
+      {kGreatestGain, by_tick, greatest_gain_by_braking(problem), blind_s > 0.0 ? product / blind_s : kGreatestGain});
 }
 
 /// Drones on a wide field; at walls, a narrow one.
@@ -203,8 +215,8 @@ MarginParts parts_of(const MarginProblem& problem, Boundary boundary, double lag
   MarginParts parts;
   parts.model_m = tuned.model_m;
   parts.delay_m = together * problem.u_max_m_s * problem.unsteady_delay_s;
-  parts.noise_m = kNoiseSigmas * independent * z_noise *
-                  left_of_samples(rate, std::max(problem.dt_s, problem.measurement_period_s));
+  const double let_through = left_of_samples(rate, std::max(problem.dt_s, problem.measurement_period_s));
+  parts.noise_m = independent * z_noise * std::max(kNoiseSigmas * let_through, kBelievedSigmas);
   parts.bias_m = kBiasSigmas * independent * problem.bias_m;
   parts.gusts_m = kBiasSigmas * independent * drift_m_s / rate * std::sqrt(slow / (1.0 + slow));
   parts.swaps_m = together * problem.u_max_m_s * problem.swap_s;

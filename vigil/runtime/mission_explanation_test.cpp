@@ -76,22 +76,26 @@ TEST(MissionNotes, A_lag_that_the_filter_does_not_know_is_noted) {
   EXPECT_TRUE(any_note_says(mission, "safety.lag_s (0.1 s) is less than the vehicle's lag (0.2 s)"));
 }
 
-TEST(MissionNotes, Noise_without_a_margin_is_noted) {
+TEST(MissionNotes, A_margin_below_what_noise_needs_is_noted) {
   Mission mission = right();
+  mission.safety.margin_m = 0.0;
+  EXPECT_TRUE(notes_on(mission).empty());
   mission.simulation.tracker.noise_m = 0.01;
-  EXPECT_TRUE(any_note_says(mission, "safety.margin_m is 0"));
+  EXPECT_TRUE(any_note_says(mission, "safety.margin_m (0 m) is less than"));
+  EXPECT_TRUE(any_note_says(mission, "safety.pair_margin_m (0 m) is less than"));
   mission.safety.margin_m = 0.05;
   EXPECT_TRUE(notes_on(mission).empty());
 }
 
-TEST(MissionNotes, Whatever_stands_between_filter_and_vehicle_without_a_margin_is_noted) {
+TEST(MissionNotes, Whatever_stands_between_filter_and_vehicle_is_noted_where_the_margin_leaves_it_out) {
   const auto is_noted = [](const std::function<void(SimulationSection&)>& change) {
     Mission mission = right();
+    mission.safety.margin_m = 0.0;
     change(mission.simulation);
-    return any_note_says(mission, "safety.margin_m is 0");
+    return any_note_says(mission, "safety.margin_m (0 m) is less than");
   };
-  EXPECT_TRUE(is_noted([](SimulationSection& simulation) { simulation.link.delay_s = 0.1; }));
-  EXPECT_TRUE(is_noted([](SimulationSection& simulation) { simulation.link.loss = 0.1; }));
+  EXPECT_TRUE(is_noted([](SimulationSection& simulation) { simulation.link.jitter_s = 0.1; }));
+  EXPECT_TRUE(is_noted([](SimulationSection& simulation) { simulation.vehicle.acceleration_limit_m_s2 = 0.2; }));
   EXPECT_TRUE(is_noted([](SimulationSection& simulation) { simulation.wind.gust_m_s = 1.0; }));
   EXPECT_TRUE(is_noted([](SimulationSection& simulation) { simulation.tracker.bias_m = 1.0; }));
   EXPECT_TRUE(is_noted([](SimulationSection& simulation) { simulation.tracker.swaps_per_h = 1.0; }));

@@ -40,8 +40,8 @@ void note_targets(const Mission& mission, Notes& notes) {
 
 /// Where less is given than what would have been derived.
 void note_below(std::string_view key, const std::optional<double>& given, double derived, Notes& notes) {
-  constexpr double kRounding = 1e-3;
-  if (!given || *given >= derived - kRounding) return;
+  constexpr double kRounding = 0.98;  // `vigil margins` prints few digits
+  if (!given || *given >= kRounding * derived) return;
   notes.push_back(
       fmt::format("safety.{} ({:.4g} m) is less than what this vehicle and what it meets need, {:.4g} m: "
                   "separation may be missed by what they cost; `vigil margins` prints the parts.",
