@@ -152,7 +152,7 @@ class CommandLine(unittest.TestCase):
         self.assertIn("./run simulate", whole)
         for code in ("0 done", "1 a run", "2 bad", "3 a component", "130 interrupted"):
             self.assertIn(code, whole)
-        for command in ("simulate", "campaign", "check", "report"):
+        for command in ("simulate", "campaign", "check", "margins", "report"):
             text = run(command, "--help").stdout
             self.assertIn("Exit codes: 0 done", text)
             self.assertNotIn("Start with", text)
@@ -163,6 +163,26 @@ class CommandLine(unittest.TestCase):
         result = run()
         self.assertEqual(result.returncode, 2)
         self.assertIn("simulate", result.stdout)
+
+    def test_margins_are_the_sum_of_their_parts_and_the_lines_to_paste_fly_with_them(self):
+        mission = MISSIONS / "lab.yaml"
+        said = json.loads(run("margins", mission, "--json").stdout)
+        for boundary, key in (("pair", "pair_margin_m"), ("wall", "margin_m")):
+            parts = dict(said[boundary])
+            total = parts.pop("total_m")
+            self.assertAlmostEqual(sum(parts.values()), total)
+            self.assertGreater(parts["noise_m"], 0)
+            self.assertEqual(said["flown"][key], total)
+        text = run("margins", mission).stdout
+        lines = [line.strip() for line in text.split("safety:")[1].splitlines()[1:]]
+        pasted = [f"safety.{line.replace(': ', '=')}" for line in lines]
+        self.assertEqual(len(pasted), 7)
+        again = run("check", mission, "--set", *pasted)
+        self.assertEqual(again.returncode, 0, again.stderr)
+        self.assertNotIn("less than", again.stdout)
+
+    def test_the_papers_barrier_has_no_margins(self):
+        self.refused("margins", PAPER)
 
     def test_check_explains_every_mission_of_the_project(self):
         for mission in sorted(MISSIONS.glob("*.yaml")):

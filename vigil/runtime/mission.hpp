@@ -115,8 +115,8 @@ struct SafetySection {
   std::optional<double> pair_margin_m;                  ///< beyond R_s; where margin_m is given: twice that
   std::optional<double> command_delay_s;                ///< made up for
   std::optional<double> observation_delay_s;            ///< made up for
-  std::optional<double> sensing_range_m;      ///< default derived
-  std::optional<double> wall_range_m;         ///< R_threat, default derived
+  std::optional<double> sensing_range_m;                ///< default derived
+  std::optional<double> wall_range_m;                   ///< R_threat, default derived
   Obstacles obstacles = Obstacles::kAirborne;
   friend bool operator==(const SafetySection&, const SafetySection&) = default;
 };
