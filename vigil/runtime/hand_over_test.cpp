@@ -1,5 +1,6 @@
 #include "vigil/runtime/hand_over.hpp"
 
+#include <atomic>
 #include <thread>
 
 #include <gtest/gtest.h>
@@ -47,9 +48,10 @@ TEST(HandOverTest, Two_threads_lose_and_mix_nothing) {
   Inbox<int> inbox(64);
   Outbox<int> outbox(100'000);
   Latest<std::pair<int, int>> latest(0, 0);
+  std::atomic<bool> has_all = false;
   std::thread control([&] {
     int received = 0;
-    while (received < kCount) {
+    while (!has_all) {
       for (const int item : inbox.take()) {
         EXPECT_EQ(item, received++);
         outbox.note(item);
@@ -69,6 +71,7 @@ TEST(HandOverTest, Two_threads_lose_and_mix_nothing) {
       EXPECT_EQ(seen.first, -seen.second);
     }
   }
+  has_all = true;
   control.join();
   EXPECT_EQ(next_back, kCount);
 }

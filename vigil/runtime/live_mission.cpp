@@ -31,6 +31,12 @@ LiveMission::~LiveMission() {
   thread_ = {};  // asks it to stop, and waits
 }
 
+void LiveMission::finish() {
+  if (std::exchange(is_finished_, true)) return;
+  thread_ = {};
+  if (recorder_) recorder_->finish();
+}
+
 void LiveMission::start() {
   thread_ = std::jthread([this](const std::stop_token& stop) { run(stop, loop_); });
 }

@@ -16,13 +16,16 @@ class LiveMission {
   /// `epoch` tells missions apart that one program flies one after the other. The recorder may be null.
   LiveMission(Mission mission, std::unique_ptr<VirtualFleet> fleet, std::unique_ptr<QueuedRecorder> recorder,
               const LiveStart& start, std::uint32_t epoch);
-  /// Ends the control thread, then the recording.
+  /// Ends the control thread.
   ~LiveMission();
   LiveMission(const LiveMission&) = delete;
   LiveMission& operator=(const LiveMission&) = delete;
 
   /// Lets the first tick begin. Call once.
   void start();
+  /// Ends the control thread, then the recording; what the recorder throws where it could not keep everything. Nothing
+  /// the second time.
+  void finish();
 
   [[nodiscard]] const Mission& mission() const noexcept { return mission_; }  ///< as it was at first
   [[nodiscard]] std::uint32_t epoch() const noexcept { return epoch_; }
@@ -38,6 +41,7 @@ class LiveMission {
   LiveFlight flight_;
   ControlLoop loop_;
   std::jthread thread_;
+  bool is_finished_ = false;
 };
 
 }  // namespace vigil::runtime

@@ -35,6 +35,7 @@ Desk::Desk(MakeFlight make_flight, Tell tell, std::shared_ptr<runtime::FlightSto
 void Desk::begin(const runtime::Mission& mission, const runtime::SavedFlight* saved) {
   std::shared_ptr<runtime::LiveMission> flight = make_flight_(mission, epoch_ + 1, saved);
   ++epoch_;
+  if (flight_) finish_flight();
   flight_ = std::move(flight);
   mission_text_ = saved != nullptr ? saved->mission_text : runtime::mission_yaml(mission);
   desk_.emplace(mission, saved != nullptr ? saved->revision : 1, saved != nullptr ? "restored" : "mission");
@@ -48,6 +49,14 @@ void Desk::begin(const runtime::Mission& mission, const runtime::SavedFlight* sa
   if (saved != nullptr) frame_->snapshot.time_s = static_cast<double>(saved->past.ticks) * runtime::tick_s(mission);
   retarget(0);
   flight_->start();
+}
+
+void Desk::finish_flight() {
+  try {
+    flight_->finish();
+  } catch (const std::exception& error) {
+    tell_(DeskTrouble{std::string("the recording: ") + error.what()});
+  }
 }
 
 void Desk::retarget(std::uint64_t ticket) {
@@ -139,6 +148,12 @@ void Desk::look() {
   news.time_s = frame_->snapshot.time_s;
   tell_(std::move(news));
   if (++looks_ % kLooksASave == 0) save();
+}
+
+void Desk::end() {
+  look();
+  save();
+  if (flight_) flight_->finish();
 }
 
 void Desk::save() {

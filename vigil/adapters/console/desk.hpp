@@ -97,10 +97,13 @@ class Desk {
   void look();
   /// Writes the state, where one is kept.
   void save();
+  /// Takes a last look, saves, and ends the flight; what its recorder throws.
+  void end();
 
  private:
   void finish_change(std::uint64_t ticket, const std::optional<runtime::Refusal>& refusal);
   void retarget(std::uint64_t ticket);
+  void finish_flight();
   void submit_target();
   void refuse(std::uint64_t ticket, std::string_view code, std::string reason);
 

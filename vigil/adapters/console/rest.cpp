@@ -43,7 +43,7 @@ std::string bearer_of(const std::string& authorization) {
 }
 
 HttpAnswer not_found() {
-  return refusal(404, "not_found", "there is nothing at this address; see protocol/openapi.yaml");
+  return refusal(404, "not_found", "there is nothing at this address; see protocol/openapi.json");
 }
 
 constexpr std::string_view kNotBuilt =
@@ -111,7 +111,7 @@ void Rest::answer_api(const HttpRequest& request, const std::string& path, const
   if (path == "/api/areas" && is_post) return import_areas(request, *role, reply);
   if (path == "/api/commands" && is_post) return answer_command(request, *role, reply);
   for (const char* known : {"/api/state", "/api/mission", "/api/areas", "/api/commands"})
-    if (path == known) return reply(refusal(405, "wrong_method", "see protocol/openapi.yaml"));
+    if (path == known) return reply(refusal(405, "wrong_method", "see protocol/openapi.json"));
   reply(not_found());
 }
 

@@ -32,7 +32,7 @@ struct HttpAnswer {
   std::vector<std::pair<std::string, std::string>> headers;  ///< beside content type, length and what all answers have
 };
 
-/// What the server says by plain HTTP: the console's page, and the interface of protocol/openapi.yaml. The hub's
+/// What the server says by plain HTTP: the console's page, and the interface of protocol/openapi.json. The hub's
 /// thread.
 class Rest {
  public:

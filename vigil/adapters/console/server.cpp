@@ -355,7 +355,7 @@ class Server::Sockets {
     ask_whether(is_over);
     context_.run();
     desk_thread_.reset();
-    desk_.save();
+    desk_.end();
   }
 
  private:

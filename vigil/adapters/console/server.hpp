@@ -43,7 +43,7 @@ class Server {
   [[nodiscard]] std::string url() const;
 
   /// Flies the mission and serves until `is_over` says so, which is asked a few times a second. saved: what an earlier
-  /// run left, or null. Whatever making the flight throws.
+  /// run left, or null. Throws what making the flight throws, and at the end what its recorder throws.
   void run(const runtime::Mission& mission, const runtime::SavedFlight* saved, const std::function<bool()>& is_over);
 
  private:

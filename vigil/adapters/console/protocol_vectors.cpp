@@ -1,0 +1,310 @@
+#include "vigil/adapters/console/protocol_vectors.hpp"
+
+#include <cmath>
+#include <limits>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "vigil/adapters/console/frames.hpp"
+#include "vigil/adapters/console/server_messages.hpp"
+#include "vigil/runtime/mission_file.hpp"
+
+namespace vigil::console {
+namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+/// Small numbers that binary fractions hold, so that a person can check them against the bytes.
+constexpr const char* kMission = R"(format: 1
+name: vectors
+field: {size_m: [4, 2], origin_m: [10, 20]}
+targets:
+  clusters: [{name: east, points_m: [[13, 21], [13.5, 21.5]], weight: 2, revisit_s: 30}]
+  areas: [{name: west, outline_m: [[10.5, 20.5], [11, 20.5], [11, 21]]}]
+no_fly: [{name: mast, outline_m: [[12, 20.25], [12.25, 20.25], [12, 20.5]]}]
+drones: [{id: a, start_m: [10.5, 21.5]}, {id: b, start_m: [12.5, 21.5]}]
+control: {speed_limit_m_s: 0.5, basis_max_index: 1}
+safety: {separation_m: 0.25, wall_distance_m: 0.125}
+)";
+
+std::string hex_of(const std::string& bytes) {
+  std::string hex;
+  for (const char byte : bytes) hex += fmt::format("{:02x}", static_cast<unsigned char>(byte));
+  return hex;
+}
+
+Json frame_case(const std::string& name, const std::string& kind, const std::string& bytes, Json fields) {
+  return {{"name", name}, {"kind", kind}, {"hex", hex_of(bytes)}, {"fields", std::move(fields)}};
+}
+
+runtime::LiveFrame flying() {
+  runtime::LiveFrame frame(2);
+  swarm::Snapshot& snapshot = frame.snapshot;
+  snapshot.tick = 1150;
+  snapshot.time_s = 23.0;
+  snapshot.has_metric = true;
+  snapshot.metric = 0.25;
+  snapshot.metric_percent = 12.5;
+  snapshot.active = 1;
+  swarm::DroneSnapshot& covering = snapshot.drones[0];
+  covering.position = {0.5, 1.5};
+  covering.velocity = {0.25, -0.5};
+  covering.height_m = 1.0;
+  covering.age_s = 0.02;
+  covering.link_age_s = 0.25;
+  covering.battery = 0.75;
+  covering.mode = swarm::VehicleMode::kFlying;
+  covering.activity = swarm::Activity::kActive;
+  covering.is_obstacle = true;
+  covering.u_nom = {0.5, 0.0};
+  covering.order = {swarm::Action::kVelocity, {0.25, 0.0}};
+  covering.filter.holding = {{{safety::RowKind::kNeighbour, 1, 0.375}, {safety::RowKind::kWall, 3, 0.5}}};
+  covering.filter.holding_count = 2;
+  covering.filter.speed_limited = true;
+  covering.filter.nearest = 1;
+  covering.filter.nearest_distance_m = 0.375;
+  swarm::DroneSnapshot& unseen = snapshot.drones[1];
+  unseen.age_s = kInfinity;
+  unseen.link_age_s = kInfinity;
+  unseen.battery = std::nan("");
+  frame.revision = 7;
+  frame.has_ticked = true;
+  frame.c_k = ergodic::Coefficients(2, 2);
+  frame.c_k << 0.5, 0.25, -0.125, 1.0;
+  frame.past.coverage.has_samples = true;
+  return frame;
+}
+
+Json snapshot_case() {
+  runtime::ClockState clock;
+  clock.speed = 2.0;
+  clock.is_paused = true;
+  clock.lateness = {.ticks = 1, .p50_us = 64.0, .p99_us = 128.0, .p999_us = 256.0, .max_us = 512.0};
+  const SnapshotContext context{.epoch = 3,
+                                .wall_ms = 1024.5,
+                                .age_s = 0.125,
+                                .worst_age_s = std::nan(""),
+                                .speed_limit_m_s = 0.5,
+                                .lost_ticks = 9};
+  constexpr double kScale = 4.0 * 0.5 / 32767.0;
+  return frame_case("two drones, one never seen", "snapshot", snapshot_frame(flying(), clock, context),
+                    {{"paused", true},
+                     {"fallback", false},
+                     {"has_metric", true},
+                     {"epoch", 3},
+                     {"drones", 2},
+                     {"tick", 1150},
+                     {"time_s", 23.0},
+                     {"wall_ms", 1024.5},
+                     {"age_s", 0.125},
+                     {"speed", 2.0},
+                     {"metric", 0.25},
+                     {"metric_percent", 12.5},
+                     {"least_pair_m", "NaN"},
+                     {"worst_age_s", "NaN"},
+                     {"lateness_p50_us", 64.0},
+                     {"lateness_p99_us", 128.0},
+                     {"active", 1},
+                     {"revision", 7},
+                     {"idle", 0},
+                     {"velocity_scale_m_s", static_cast<double>(static_cast<float>(kScale))},
+                     {"lost_ticks", 9},
+                     {"position", {0.5, 1.5, "NaN", "NaN"}},
+                     {"height", {1.0, 0.0}},
+                     {"nearest", {0.375, "NaN"}},
+                     {"velocity", {4096, -8192, 0, 0}},
+                     {"nominal", {8192, 0, 0, 0}},
+                     {"command", {4096, 0, 0, 0}},
+                     {"age_ms", {20, 65535}},
+                     {"link_age_ms", {250, 65535}},
+                     {"battery", {150, 255}},
+                     {"mode", {3, 0}},
+                     {"activity", {0, 1}},
+                     {"action", {3, 0}},
+                     {"flags", {9, 0}},
+                     {"holding",
+                      {{{"drone", 0}, {"kind", 0}, {"index", 1}, {"distance_m", 0.375}},
+                       {{"drone", 0}, {"kind", 1}, {"index", 3}, {"distance_m", 0.5}}}}});
+}
+
+Json density_cases() {
+  const field::Field field{4.0, 2.0};
+  field::DensityGrid density{field, Eigen::ArrayXXd::Zero(3, 2), {}, {}};
+  density.values << 0.0, 0.125, 0.25, 0.5, 0.0, 0.0;
+  const DensityContext preview{.epoch = 3, .revision = 7, .is_preview = true, .request = 42};
+  return Json::array(
+      {frame_case("a preview", "density", density_frame(field, density, preview),
+                  {{"is_preview", true},
+                   {"is_empty", false},
+                   {"epoch", 3},
+                   {"width", 3},
+                   {"height", 2},
+                   {"length_x_m", 4.0},
+                   {"length_y_m", 2.0},
+                   {"peak", 0.5},
+                   {"revision", 7},
+                   {"request", 42},
+                   {"values", {0, 32768, 0, 16384, 65535, 0}}}),
+       frame_case("nothing to look at", "density", density_frame(field, std::nullopt, {.epoch = 3, .revision = 8}),
+                  {{"is_preview", false},
+                   {"is_empty", true},
+                   {"epoch", 3},
+                   {"width", 0},
+                   {"height", 0},
+                   {"length_x_m", 4.0},
+                   {"length_y_m", 2.0},
+                   {"peak", 0.0},
+                   {"revision", 8},
+                   {"request", 0},
+                   {"values", Json::array()}})});
+}
+
+Json other_frames() {
+  const field::Field field{4.0, 2.0};
+  field::SeenMap seen(field, {2, 2});
+  seen.see({1.0, 0.5}, 0.1, 10.0);
+  seen.see({3.0, 1.5}, 0.1, 21.5);
+  const float nan = std::numeric_limits<float>::quiet_NaN();
+  const Trails trails{2, 2, 0.25, 23.0, {0.5F, 1.5F, 0.625F, 1.5F, nan, nan, 2.5F, 0.25F}};
+  return Json::array({frame_case("four coefficients", "coverage", coverage_frame(field, flying(), 3),
+                                 {{"has_samples", true},
+                                  {"epoch", 3},
+                                  {"time_s", 23.0},
+                                  {"length_x_m", 4.0},
+                                  {"length_y_m", 2.0},
+                                  {"indices_per_axis", 2},
+                                  {"c_k", {0.5, -0.125, 0.25, 1.0}}}),
+                      frame_case("two of four cells seen", "age", age_frame(seen, 23.0, 3),
+                                 {{"epoch", 3},
+                                  {"time_s", 23.0},
+                                  {"length_x_m", 4.0},
+                                  {"length_y_m", 2.0},
+                                  {"width", 2},
+                                  {"height", 2},
+                                  {"age_ds", {130, 65535, 65535, 15}}}),
+                      frame_case("two drones, two points", "trails", trails_frame(trails, 3),
+                                 {{"epoch", 3},
+                                  {"drones", 2},
+                                  {"points", 2},
+                                  {"spacing_s", 0.25},
+                                  {"time_s", 23.0},
+                                  {"xy", {0.5, 1.5, 0.625, 1.5, "NaN", "NaN", 2.5, 0.25}}})});
+}
+
+Json frames() {
+  Json cases = Json::array({snapshot_case()});
+  for (const Json& one : density_cases()) cases.push_back(one);
+  for (const Json& one : other_frames()) cases.push_back(one);
+  return cases;
+}
+
+const std::vector<std::pair<std::string, std::string>>& client_texts() {
+  static const std::vector<std::pair<std::string, std::string>> kTexts{
+      {"hello", R"({"type":"hello"})"},
+      {"hello with all", R"({"type":"hello","name":"Ana","token":"0123456789abcdef","role":"viewer"})"},
+      {"ping", R"({"type":"ping","id":1})"},
+      {"land some", R"({"type":"land","id":2,"drones":["a","b"]})"},
+      {"take off all", R"({"type":"take_off","id":3,"drones":"all"})"},
+      {"land all", R"({"type":"land_all","id":4})"},
+      {"emergency stop", R"({"type":"emergency_stop","id":5,"drones":"all"})"},
+      {"go to", R"({"type":"go_to","id":6,"drones":["a"],"place_m":[11,21]})"},
+      {"return", R"({"type":"return","id":7,"drones":["a"]})"},
+      {"speed", R"({"type":"set_speed","id":8,"factor":20})"},
+      {"pause", R"({"type":"pause","id":9})"},
+      {"editing", R"({"type":"editing","id":10,"what":[{"kind":"area","name":"west"}]})"},
+      {"load", R"({"type":"load_mission","id":11,"yaml":"format: 1"})"},
+      {"every edit",
+       R"({"type":"edit","id":12,"based_on":7,"edits":[{"op":"add","kind":"cluster","entry":{"name":"n","points_m":[[11,21]]}},{"op":"replace","kind":"area","name":"west","entry":{"name":"west","outline_m":[[10.5,20.5],[11,20.5],[11,21]],"weight":2,"soft_edge_m":0.5,"revisit_s":null}},{"op":"remove","kind":"no_fly","name":"mast"},{"op":"rename","kind":"cluster","name":"n","to":"north"},{"op":"add_point","kind":"cluster","name":"north","point_m":[11,21]},{"op":"add_point","kind":"cluster","name":"north","point_m":[11,21],"index":0},{"op":"move_point","kind":"cluster","name":"north","index":0,"point_m":[12,21]},{"op":"remove_point","kind":"cluster","name":"north","index":1},{"op":"set_weight","kind":"cluster","name":"north","weight":3},{"op":"set_revisit","kind":"cluster","name":"north","revisit_s":60},{"op":"set_soft_edge","kind":"area","name":"west","soft_edge_m":0.25},{"op":"set_uniform_floor","uniform_floor":0.125}]})"},
+      {"preview",
+       R"({"type":"preview_density","id":13,"based_on":7,"edits":[{"op":"set_weight","kind":"cluster","name":"east","weight":3}]})"},
+      {"not JSON", R"({"type":"ping","id":)"},
+      {"not an object", R"([1,2])"},
+      {"no type", R"({"id":1})"},
+      {"unknown type", R"({"type":"fly_to_the_moon","id":1})"},
+      {"no id", R"({"type":"ping"})"},
+      {"negative id", R"({"type":"ping","id":-1})"},
+      {"id too large for a double", R"({"type":"ping","id":9007199254740992})"},
+      {"unknown member", R"({"type":"ping","id":1,"colour":"red"})"},
+      {"nobody", R"({"type":"land","id":1,"drones":[]})"},
+      {"wrong word for all", R"({"type":"land","id":1,"drones":"everybody"})"},
+      {"unknown role", R"({"type":"hello","role":"admiral"})"},
+      {"empty name", R"({"type":"hello","name":""})"},
+      {"no edits", R"({"type":"edit","id":1,"based_on":7,"edits":[]})"},
+      {"unknown edit", R"({"type":"edit","id":1,"based_on":7,"edits":[{"op":"paint"}]})"},
+      {"unknown kind", R"({"type":"edit","id":1,"based_on":7,"edits":[{"op":"remove","kind":"tree","name":"x"}]})"},
+      {"a point of three",
+       R"({"type":"edit","id":1,"based_on":7,"edits":[{"op":"add_point","kind":"cluster","name":"x","point_m":[1,2,3]}]})"},
+      {"a number beyond all", R"({"type":"set_speed","id":1,"factor":1e999})"},
+  };
+  return kTexts;
+}
+
+Json client_messages() {
+  Json cases = Json::array();
+  for (const auto& [name, text] : client_texts()) {
+    const auto parsed = parse_client_message(text);
+    const auto* refusal = std::get_if<MessageRefusal>(&parsed);
+    Json one{{"name", name}, {"text", text}, {"is_accepted", refusal == nullptr}};
+    if (refusal != nullptr) one["code"] = refusal->code;
+    cases.push_back(std::move(one));
+  }
+  return cases;
+}
+
+Json server_messages() {
+  const runtime::Mission mission = runtime::parse_mission(kMission, "the vectors' mission");
+  runtime::MissionDesk desk(mission);
+  const std::vector<runtime::TargetEdit> edits{runtime::SetWeight{{runtime::TargetKind::kCluster, "east"}, 3.0}};
+  const bool is_refused = desk.edit(edits, 1, "Ana").has_value();
+  const Operator ana{3, "Ana", Role::kOperator, {{runtime::TargetKind::kArea, "west"}}};
+  ConsoleEvent event{
+      .number = 12, .tick = 1150, .time_s = 23.0, .wall_ms = 1024.5, .source = "swarm", .what = "landing"};
+  event.drone = "b";
+  event.was = "active";
+  event.words = {runtime::Severity::kWarning, "b lands", "1 of 2 drones cover", "take off again when it is ready"};
+  const std::vector<runtime::AreaState> areas{
+      {{runtime::TargetKind::kCluster, "east"}, 3.25, 14.0, 30.0, false, 0.5, 0.25},
+      {{runtime::TargetKind::kArea, "west"}, 33.5, 33.5, {}, false, 0.25, 0.5}};
+  const StatusContext status{
+      .epoch = 3,
+      .recording = RecordingState{"out/x", 1200, 0},
+      .lost_events = 0,
+      .clients = 2,
+      .lateness = {.ticks = 1, .p50_us = 64.0, .p99_us = 128.0, .p999_us = 256.0, .max_us = 512.0},
+      .waits_for_resume = true};
+  Json list = Json::array();
+  const auto add = [&list](const char* name, Json message) {
+    list.push_back({{"name", name}, {"message", std::move(message)}});
+  };
+  add("hello", hello_json(ana, "vigil 0.1.0", true));
+  add("mission", mission_message(mission, 3));
+  add(is_refused ? "targets, not changed" : "targets", targets_json(desk, 3));
+  add("events", events_json({event_json(event)}));
+  add("status", status_json(areas, status));
+  add("presence", presence_json({ana}));
+  add("ack", ack_json(7, {1151, false, {}, {}}));
+  add("ack of an edit", ack_json(8, {1151, true, 8, {}}));
+  add("ack of some", ack_json(9, {1151, false, {}, {{"b", "b is on the ground already"}}}));
+  add("refused", refused_json({10, "stale", "Ben changed it"}));
+  add("refused, no id", refused_json({{}, "malformed", "it is not JSON in UTF-8"}));
+  add("pong", pong_json(11, 1024.5));
+  add("bye", bye_json("ending", "the program ends"));
+  return list;
+}
+
+std::string lines_of(const Json& cases) {
+  std::string text = "[\n";
+  for (const Json& one : cases) text += (text.size() > 2 ? ",\n" : "") + one.dump();
+  return text + "\n]\n";
+}
+
+}  // namespace
+
+std::map<std::string, std::string> protocol_vectors() {
+  return {{"frames.json", lines_of(frames())},
+          {"client_messages.json", lines_of(client_messages())},
+          {"server_messages.json", lines_of(server_messages())}};
+}
+
+}  // namespace vigil::console
