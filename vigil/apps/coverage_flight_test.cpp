@@ -142,16 +142,23 @@ double time_to_cover(const runtime::ClusterEntry& added, int seed) {
   return 180.0;
 }
 
-class NewTarget : public testing::TestWithParam<runtime::ClusterEntry> {};
+/// A cluster that is added in so many flights, with the seeds 1, 2, ...
+struct Addition {
+  runtime::ClusterEntry cluster;
+  int flights = 0;
+};
 
-TEST_P(NewTarget, After_ten_minutes_it_is_covered_to_its_share_within_a_minute_in_most_flights) {
+class NewTarget : public testing::TestWithParam<Addition> {};
+
+TEST_P(NewTarget, After_ten_minutes_it_is_covered_to_its_share_within_a_minute_in_every_flight) {
   std::vector<double> took_s;
-  for (int seed = 1; seed <= 9; ++seed) {
-    took_s.push_back(time_to_cover(GetParam(), seed));
-    std::printf("%s, seed %d: %.1f s\n", GetParam().name.c_str(), seed, took_s.back());
+  for (int seed = 1; seed <= GetParam().flights; ++seed) {
+    took_s.push_back(time_to_cover(GetParam().cluster, seed));
+    EXPECT_LE(took_s.back(), 60.0) << "seed " << seed;
   }
-  std::sort(took_s.begin(), took_s.end());
-  EXPECT_LE(took_s[took_s.size() / 2], 60.0);
+  std::ranges::sort(took_s);
+  std::printf("%s: median %.1f s, worst %.1f s\n", GetParam().cluster.name.c_str(), took_s[took_s.size() / 2],
+              took_s.back());
 }
 
 runtime::ClusterEntry added_cluster(const std::string& name, std::vector<Vec2> points) {
@@ -161,12 +168,14 @@ runtime::ClusterEntry added_cluster(const std::string& name, std::vector<Vec2> p
   return cluster;
 }
 
+// A lone point is where slow flights were seen, one in 40 to 200 with plans by the metric's own weights.
 INSTANTIATE_TEST_SUITE_P(
     Clusters, NewTarget,
-    testing::Values(added_cluster("one_point", {{0.9, -0.9}}), added_cluster("far_corner", {{1.1, 1.1}}),
-                    added_cluster("quarter_of_all",
-                                  {{0.7, -0.9}, {0.9, -0.8}, {0.8, -1.0}, {1.0, -0.9}, {0.85, -0.85}})),
-    [](const auto& cluster) { return cluster.param.name; });
+    testing::Values(
+        Addition{added_cluster("one_point", {{0.9, -0.9}}), 60}, Addition{added_cluster("far_corner", {{1.1, 1.1}}), 9},
+        Addition{added_cluster("quarter_of_all", {{0.7, -0.9}, {0.9, -0.8}, {0.8, -1.0}, {1.0, -0.9}, {0.85, -0.85}}),
+                 9}),
+    [](const auto& addition) { return addition.param.cluster.name; });
 
 }  // namespace
 }  // namespace vigil::apps

@@ -130,7 +130,7 @@ void SwarmState::set_target(const CoverageTarget& target) noexcept {
   target_.has_targets = target.has_targets;
   target_.no_fly.assign(target.no_fly.begin(), target.no_fly.end());
   fade_delta_ = parameters_.fade * ergodic::gradient_scale(basis_, target_.phi_k);
-  look_ahead_.decide_at_once();
+  look_ahead_.targets_changed();
 }
 
 void SwarmState::take_wish(const Command& command, Snapshot& out) noexcept {

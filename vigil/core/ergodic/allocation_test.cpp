@@ -46,6 +46,7 @@ TEST_P(AllocationTest, The_coverage_law_allocates_nothing) {
       sum += b[0].norm();
     }
     statistics.reset();
+    look_ahead.targets_changed();
   }
   EXPECT_EQ(guard.allocations(), 0U);
   EXPECT_GT(sum, 0.0);

@@ -7,13 +7,18 @@ namespace vigil::ergodic {
 
 namespace {
 
+Coefficients weight_of_detail(const Basis& basis) {
+  constexpr double kPower = 0.85;  // measured: docs/decisions/0002-look-ahead.md, New targets
+  return basis.weight().unaryExpr([](double lambda_k) { return std::pow(lambda_k, kPower); });
+}
+
 // The integral over F of |grad f_k|^2 is (k1 pi/L1)^2 + (k2 pi/L2)^2.
-double mean_squared_slope(const Basis& basis) {
+double mean_squared_slope(const Basis& basis, const Coefficients& weight) {
   double sum = 0.0;
   for (int k2 = 0; k2 <= basis.max_index(); ++k2) {
     for (int k1 = 0; k1 <= basis.max_index(); ++k1) {
       const double squared = std::pow(basis.wave_numbers_x()[k1], 2) + std::pow(basis.wave_numbers_y()[k2], 2);
-      sum += basis.weight()(k1, k2) * squared;
+      sum += weight(k1, k2) * squared;
     }
   }
   return sum / basis.field().area();
@@ -22,10 +27,10 @@ double mean_squared_slope(const Basis& basis) {
 }  // namespace
 
 Forecast::Forecast(const Basis& basis, std::size_t drones, int pieces)
-    : weight_(basis.weight()),
+    : weight_{basis.weight(), weight_of_detail(basis)},
+      mean_squared_slope_{mean_squared_slope(basis, weight_[0]), mean_squared_slope(basis, weight_[1])},
       excess_(static_cast<std::size_t>(pieces), Coefficients::Zero(basis.indices_per_axis(), basis.indices_per_axis())),
-      a_k_(excess_.front()),
-      mean_squared_slope_(mean_squared_slope(basis)) {
+      a_k_(excess_.front()) {
   assert(pieces >= 1);
   const std::size_t nodes = drones * excess_.size();
   midpoints_.reserve(nodes);
@@ -79,7 +84,7 @@ void Forecast::look_back(Kernel& kernel, const CoverageStatistics& statistics, d
   a_k_.setZero();
   for (std::size_t j = excess_.size(); j-- > 0;) {
     a_k_ *= statistics.kept(piece_s);
-    a_k_ += weight_.cwiseProduct(excess_[j]);
+    a_k_ += weight_[emphasis()].cwiseProduct(excess_[j]);
     kernel.gradient(std::span(midpoints_).subspan(j * drones_, drones_), a_k_,
                     std::span(midpoint_slopes_).subspan(j * drones_, drones_));
   }
@@ -102,12 +107,12 @@ void Forecast::trace_back(double scale) noexcept {
 // moment j^2/2 grad f_k . v: the sum of their squares is moment^2 N^5/20 |grad f_k|^2 |v|^2, for N velocities.
 double Forecast::curvature() const noexcept {
   const auto pieces = static_cast<double>(excess_.size());
-  return std::pow(pieces * pieces * moment_s2_, 2) / 10.0 * mean_squared_slope_;
+  return std::pow(pieces * pieces * moment_s2_, 2) / 10.0 * mean_squared_slope_[emphasis()];
 }
 
 double Forecast::cost() const noexcept {
   double sum = 0.0;
-  for (const Coefficients& d_k : excess_) sum += (weight_.array() * d_k.array().square()).sum();
+  for (const Coefficients& d_k : excess_) sum += (weight_[emphasis()].array() * d_k.array().square()).sum();
   return sum;
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <span>
 #include <vector>
 
@@ -13,6 +14,12 @@ struct Paths {
   std::span<const Vec2> starts;      ///< one a drone, metres
   std::span<const Vec2> velocities;  ///< piece j of drone i at i x pieces + j, m/s
   double piece_s = 0.0;              ///< > 0: how long a piece lasts
+};
+
+/// How much the indices weigh in a forecast.
+enum class Emphasis {
+  kMetric,  ///< lambda_k, as in (4)
+  kDetail   ///< lambda_k^0.85: high indices, which tell a small place from its surroundings, count for more
 };
 
 /// The coverage of the next seconds, if every drone flew its path, and how it changes with the paths:
@@ -29,6 +36,9 @@ class Forecast {
   Forecast(const Basis& basis, std::size_t drones, int pieces);
 
   [[nodiscard]] int pieces() const noexcept { return static_cast<int>(excess_.size()); }
+
+  /// What lambda_k stands for in the runs to come, and in their cost, slopes and curvature; at first kMetric.
+  void set_emphasis(Emphasis emphasis) noexcept { emphasis_ = emphasis; }
 
   /// Precondition: at most `drones` starts, `pieces` velocities each; finite; the kernel and the statistics are of the
   /// same basis. Costs `pieces` calls each of Kernel::add_basis and Kernel::gradient for the drones.
@@ -51,12 +61,15 @@ class Forecast {
   void look_back(Kernel& kernel, const CoverageStatistics& statistics, double piece_s) noexcept;
   void trace_back(double scale) noexcept;
 
-  Coefficients weight_;               ///< lambda_k
+  [[nodiscard]] std::size_t emphasis() const noexcept { return static_cast<std::size_t>(emphasis_); }
+
+  std::array<Coefficients, 2> weight_;        ///< lambda_k with each emphasis
+  std::array<double, 2> mean_squared_slope_;  ///< the mean over F of sum lambda_k |grad f_k|^2 with each, 1/m^4
+  Emphasis emphasis_ = Emphasis::kMetric;
   std::vector<Coefficients> excess_;  ///< D_j
   Coefficients a_k_;
-  double mean_squared_slope_;  ///< of the metric's terms: the mean over F of sum lambda_k |grad f_k|^2, 1/m^4
-  std::size_t drones_ = 0;     ///< of the last run
-  double moment_s2_ = 0.0;     ///< of the last run: gain x piece_s
+  std::size_t drones_ = 0;  ///< of the last run
+  double moment_s2_ = 0.0;  ///< of the last run: gain x piece_s
   // Piece j of drone i at j x drones_ + i: the kernel takes all drones of one piece at once.
   std::vector<Vec2> midpoints_;
   std::vector<Vec2> midpoint_slopes_;

@@ -80,6 +80,20 @@ TEST_P(ForecastTest, The_cost_is_what_the_statistics_come_to_when_the_drones_fly
   EXPECT_NEAR(foreseen, flown, 1e-12 * flown);
 }
 
+TEST_P(ForecastTest, In_detail_it_is_the_forecast_of_a_less_smooth_metric) {
+  const Basis rougher({3.0, 2.0}, 6, 0.85 * 1.5);
+  Forecast expected(rougher, 2, kPieces);
+  expected.run(kernel_, statistics_, phi_k_, region_, {starts_, velocities_, 0.4});
+  const double by_metric = cost();
+  forecast_.set_emphasis(Emphasis::kDetail);
+  EXPECT_NEAR(cost(), expected.cost(), 1e-12 * expected.cost());
+  EXPECT_NEAR(forecast_.curvature(), expected.curvature(), 1e-12 * expected.curvature());
+  for (std::size_t j = 0; j < velocities_.size(); ++j)
+    EXPECT_LT((forecast_.slopes()[j] - expected.slopes()[j]).norm(), 1e-12) << "piece " << j;
+  forecast_.set_emphasis(Emphasis::kMetric);
+  EXPECT_EQ(cost(), by_metric);
+}
+
 TEST_P(ForecastTest, A_path_against_a_wall_slides_along_it) {
   starts_ = {{0.1, 1.0}, {2.1, 1.2}};
   for (std::size_t j = 0; j < kPieces; ++j) velocities_[j] = {-0.3, 0.2};

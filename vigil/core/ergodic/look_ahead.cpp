@@ -35,9 +35,16 @@ LookAhead::LookAhead(const Basis& basis, const LookAheadParameters& parameters, 
       takes_part_(drones, 0) {
   assert(parameters.u_max_m_s > 0.0 && parameters.lag_s >= 0.0 && parameters.dt_s > 0.0);
   assert(!parameters.horizon_s || *parameters.horizon_s > 0.0);
-  assert(parameters.decisions > 0.0 && parameters.step > 0.0);
+  assert(parameters.decisions > 0.0 && parameters.catch_up >= 0.0 && parameters.step > 0.0);
   starts_.reserve(drones);
   velocities_.reserve(paths_.size());
+}
+
+// By the metric's own weights drones may leave a small new place with some of its share missing, and for minutes.
+void LookAhead::targets_changed() noexcept {
+  decide_at_once();
+  if (!has_steered_) return;
+  catch_up_left_s_ = parameters_.catch_up * std::max(field_.length_x, field_.length_y) / parameters_.u_max_m_s;
 }
 
 double LookAhead::horizon_s(std::size_t drones) const noexcept {
@@ -74,6 +81,7 @@ void LookAhead::fly_on(std::span<Vec2> path, double pieces_flown) const noexcept
 
 void LookAhead::decide(Kernel& kernel, const CoverageStatistics& statistics, const Coefficients& phi_k,
                        const AllowedRegion& region, std::span<const Departure> departures) noexcept {
+  forecast_.set_emphasis(catch_up_left_s_ > 0.0 ? Emphasis::kDetail : Emphasis::kMetric);
   const double piece_s = horizon_s(departures.size()) / parameters_.pieces;
   starts_.clear();
   velocities_.clear();
@@ -101,6 +109,7 @@ void LookAhead::steer(Kernel& kernel, const CoverageStatistics& statistics, cons
   assert(departures.size() == u.size() && departures.size() <= takes_part_.size());
   enlist(departures);
   if (departures.empty()) return;
+  has_steered_ = true;
   since_decision_s_ += parameters_.dt_s;
   const double pause_s = std::max(parameters_.least_pause_s, horizon_s(departures.size()) / parameters_.decisions);
   if (is_due_ || since_decision_s_ > pause_s - 0.5 * parameters_.dt_s) {
@@ -108,6 +117,7 @@ void LookAhead::steer(Kernel& kernel, const CoverageStatistics& statistics, cons
     since_decision_s_ = 0.0;
     is_due_ = false;
   }
+  catch_up_left_s_ = std::max(0.0, catch_up_left_s_ - parameters_.dt_s);
   for (std::size_t i = 0; i < u.size(); ++i) u[i] = path_of(departures[i].drone).front();
 }
 

@@ -19,6 +19,7 @@ struct LookAheadParameters {
   int pieces = 8;              ///< >= 1, of equal length, with one velocity each
   double decisions = 40.0;     ///< > 0, decisions a horizon, ...
   double least_pause_s = 0.1;  ///< >= 0, ... but not more often than that
+  double catch_up = 6.0;       ///< >= 0, times to cross the longer side: so long new targets are planned for in detail
   double step = 1.0;           ///< > 0, of a decision: in units of what a single drone's curvature allows
 };
 
@@ -41,8 +42,11 @@ class LookAhead {
  public:
   LookAhead(const Basis& basis, const LookAheadParameters& parameters, std::size_t drones);
 
-  /// Lets the next steer() decide, whatever time it is: for new targets.
+  /// Lets the next steer() decide, whatever time it is.
   void decide_at_once() noexcept { is_due_ = true; }
+  /// The same for new targets. If the swarm was steered before, what is new has to be made up for: for
+  /// LookAheadParameters::catch_up plans go by Emphasis::kDetail.
+  void targets_changed() noexcept;
 
   /// u[i] for departures[i]. Call once a tick, after the tick's sample was added to the statistics. A drone that was
   /// not among the last call's departures begins a new path; whenever others take part, all decide at once.
@@ -68,6 +72,8 @@ class LookAhead {
   std::vector<char> takes_part_;  ///< of each drone: whether it was among the last departures
   bool is_due_ = true;
   double since_decision_s_ = 0.0;
+  bool has_steered_ = false;
+  double catch_up_left_s_ = 0.0;
   // Work space of one decision.
   std::vector<Vec2> starts_;
   std::vector<Vec2> velocities_;

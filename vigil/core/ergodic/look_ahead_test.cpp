@@ -128,6 +128,43 @@ TEST_F(LookAheadTest, Told_so_it_decides_at_once) {
   EXPECT_NE(u_, before);
 }
 
+TEST_F(LookAheadTest, New_targets_in_flight_are_planned_for_in_detail_for_a_while) {
+  LookAhead look_ahead(basis_, {.u_max_m_s = kSpeed, .dt_s = kDt, .catch_up = 0.1}, 3);  // 0.1 x 3 m / u_max = 1 s
+  const auto next = [this](LookAhead copy) {
+    const CoverageStatistics before = statistics_;
+    decide(copy);
+    statistics_ = before;
+    return u_;
+  };
+  const auto plans_in_detail = [&] {
+    LookAhead at_once = look_ahead;
+    at_once.decide_at_once();
+    LookAhead told = look_ahead;
+    told.targets_changed();
+    return next(at_once) == next(told);
+  };
+  for (int i = 0; i < 100; ++i) step(look_ahead);
+  EXPECT_FALSE(plans_in_detail());
+  look_ahead.targets_changed();
+  for (int i = 0; i < 49; ++i) step(look_ahead);
+  EXPECT_TRUE(plans_in_detail());
+  step(look_ahead);
+  step(look_ahead);
+  EXPECT_FALSE(plans_in_detail());
+}
+
+TEST_F(LookAheadTest, The_first_targets_have_nothing_to_be_made_up_for) {
+  LookAhead told = controller();
+  told.targets_changed();
+  LookAhead untold = controller();
+  const CoverageStatistics before = statistics_;
+  decide(told);
+  const std::vector<Vec2> u = u_;
+  statistics_ = before;
+  decide(untold);
+  EXPECT_EQ(u, u_);
+}
+
 TEST_F(LookAheadTest, When_a_drone_drops_out_or_returns_all_decide_at_once) {
   LookAhead look_ahead = controller();
   step(look_ahead);
