@@ -19,10 +19,6 @@ double lag_of(const BarrierParameters& parameters) {
   return parameters.kind == BarrierKind::kLagAware ? parameters.lag_s : 0.0;
 }
 
-double margin_of(const BarrierParameters& parameters) {
-  return parameters.kind == BarrierKind::kLagAware ? parameters.margin_m : 0.0;
-}
-
 double pair_margin_of(const BarrierParameters& parameters) {
   return parameters.kind == BarrierKind::kLagAware ? parameters.pair_margin_m : 0.0;
 }
@@ -187,6 +183,13 @@ PairBarrier separation_barrier(const BarrierParameters& parameters, const Body& 
                              drift_of(parameters, own, other), parameters.pair_gain);
 }
 
+PairBarrier margin_barrier(const BarrierParameters& parameters, const Body& other) {
+  PairBarrier barrier = barrier_of_distance(parameters, other, parameters.separation_m + pair_margin_of(parameters),
+                                            0.0, parameters.pair_gain);
+  barrier.closing_speed_m_s = 0.0;
+  return barrier;
+}
+
 PairBarrier bare_separation_barrier(const BarrierParameters& parameters, const Body& other) {
   return barrier_of_distance(parameters, other, parameters.separation_m, 0.0, parameters.pair_gain);
 }
@@ -195,8 +198,12 @@ PairBarrier contact_barrier(const BarrierParameters& parameters, const Body& oth
   return barrier_of_distance(parameters, other, parameters.contact_distance_m, 0.0, std::numeric_limits<double>::max());
 }
 
+double wall_margin(const BarrierParameters& parameters) {
+  return parameters.kind == BarrierKind::kLagAware ? parameters.margin_m : 0.0;
+}
+
 double wall_reserve(const BarrierParameters& parameters, const Body& own) {
-  return margin_of(parameters) + parameters.u_max_m_s * std::max(0.0, own.age_s);
+  return wall_margin(parameters) + parameters.u_max_m_s * std::max(0.0, own.age_s);
 }
 
 std::optional<HalfPlane> pair_row(const BarrierParameters& parameters, const PairBarrier& barrier, const Vec2& z_ij,

@@ -32,6 +32,10 @@ struct PairBarrier {
 /// and the way that both may have gone since they were seen.
 [[nodiscard]] PairBarrier separation_barrier(const BarrierParameters& parameters, const Body& own, const Body& other);
 
+/// The barrier of separation_m and pair_margin_m: without the way that drones may have gone unseen, or may yet go by
+/// themselves.
+[[nodiscard]] PairBarrier margin_barrier(const BarrierParameters& parameters, const Body& other);
+
 /// The barrier of separation_m alone: what must hold when there is no room for more. It never asks for more than
 /// separation_barrier().
 [[nodiscard]] PairBarrier bare_separation_barrier(const BarrierParameters& parameters, const Body& other);
@@ -41,8 +45,9 @@ struct PairBarrier {
 /// bare_separation_barrier().
 [[nodiscard]] PairBarrier contact_barrier(const BarrierParameters& parameters, const Body& other);
 
-/// What a drone keeps beyond R_wall and the no-fly buffer: margin_m (kLagAware), and the way that it may have gone
-/// since it was seen.
+/// What a drone keeps beyond R_wall and the no-fly buffer: margin_m (0 for kPaper), ...
+[[nodiscard]] double wall_margin(const BarrierParameters& parameters);
+/// ... and with the way that it may have gone since it was seen.
 [[nodiscard]] double wall_reserve(const BarrierParameters& parameters, const Body& own);
 
 /// With lag 0: 2 z_ij . u_i >= -gamma_d(h) + 2 |z_ij| closing_speed, divided by 2 |z_ij|; with a lag the exact change

@@ -105,15 +105,19 @@ void Filter::steer(std::size_t own, std::span<const Body> bodies, std::span<cons
   const double reserve_m = wall_reserve(parameters_, bodies[own]);
   row_count_ = 0;
   gather_pairs(own, z, bodies, report);
-  gather_walls(z, bodies[own], reserve_m, Priority::kMargin, report);
-  gather_edges(z, bodies[own], no_fly, reserve_m, Priority::kMargin, report);
+  gather_walls(z, bodies[own], reserve_m, Priority::kDoubt, report);
+  gather_edges(z, bodies[own], no_fly, reserve_m, Priority::kDoubt, report);
   gather_ways_out(z, bodies[own], no_fly, report);
   PlanarQpSolution solution = solve_rows(u_nom);
   if (!solution.feasible) {
-    // Noise alone can break a margin, and margins of two neighbours can contradict each other or a wall. They give way
-    // first: to the same rows without margins, which ask for less, so that they matter only now.
+    // What lost drones might do can contradict all else, noise alone can break a margin, and margins of two neighbours
+    // can contradict each other or a wall. They give way first: to rows that ask for less, so that they matter only
+    // now.
     report.margin_used = true;
-    gather_bare_pairs(own, z, bodies, report);
+    gather_lesser_pairs(own, z, bodies, report);
+    const double margin_m = wall_margin(parameters_);
+    gather_walls(z, bodies[own], margin_m, Priority::kMargin, report);
+    gather_edges(z, bodies[own], no_fly, margin_m, Priority::kMargin, report);
     gather_walls(z, bodies[own], 0.0, Priority::kWall, report);
     gather_edges(z, bodies[own], no_fly, 0.0, Priority::kWall, report);
     solution = solve_rows(u_nom);
@@ -156,13 +160,13 @@ void Filter::gather_pairs(std::size_t own, const Vec2& z, std::span<const Body> 
       report.nearest_distance_m = distance;
     }
     const Vec2 v_ij = bodies[own].velocity - bodies[other].velocity;
-    const auto row = pair_row(parameters_, barrier, z_ij, v_ij, static_cast<int>(own), index, Priority::kMargin);
+    const auto row = pair_row(parameters_, barrier, z_ij, v_ij, static_cast<int>(own), index, Priority::kDoubt);
     if (row) add(*row, {RowKind::kNeighbour, index, distance}, report);
   });
 }
 
-void Filter::gather_bare_pairs(std::size_t own, const Vec2& z, std::span<const Body> bodies,
-                               FilterReport& report) noexcept {
+void Filter::gather_lesser_pairs(std::size_t own, const Vec2& z, std::span<const Body> bodies,
+                                 FilterReport& report) noexcept {
   grid_.visit_near(z, reach_m_, [&](std::size_t other) {
     const Vec2 z_ij = z - points_[other];
     if (other == own || z_ij.norm() > reach_m_) return;
@@ -173,6 +177,7 @@ void Filter::gather_bare_pairs(std::size_t own, const Vec2& z, std::span<const B
       const auto row = pair_row(parameters_, barrier, z_ij, v_ij, static_cast<int>(own), index, priority);
       if (row) add(*row, {RowKind::kNeighbour, index, distance}, report);
     };
+    add_row(margin_barrier(parameters_, bodies[other]), Priority::kMargin);
     add_row(bare_separation_barrier(parameters_, bodies[other]), Priority::kSeparation);
     add_row(contact_barrier(parameters_, bodies[other]), Priority::kPhysicalRadius);
   });

@@ -27,7 +27,7 @@ struct FilterReport {
   std::array<HoldingRow, 2> holding{};
   int holding_count = 0;
   bool speed_limited = false;   ///< the disk |u| <= u_max holds u
-  bool margin_used = false;     ///< no velocity kept every margin: R_s, walls and buffers held, the margins gave way
+  bool margin_used = false;     ///< no velocity kept everything: what lost drones might do, then margins gave way
   bool fallback = false;        ///< no velocity kept even those: the least violation was taken
   double violation_m_s = 0.0;   ///< how far the worst of those rows is from being satisfied then
   bool input_rejected = false;  ///< its own state or nominal velocity was not finite: u = 0
@@ -64,7 +64,7 @@ class Filter {
              Vec2& u, FilterReport& report) noexcept;
   [[nodiscard]] PlanarQpSolution solve_rows(const Vec2& u_nom) noexcept;
   void gather_pairs(std::size_t own, const Vec2& z, std::span<const Body> bodies, FilterReport& report) noexcept;
-  void gather_bare_pairs(std::size_t own, const Vec2& z, std::span<const Body> bodies, FilterReport& report) noexcept;
+  void gather_lesser_pairs(std::size_t own, const Vec2& z, std::span<const Body> bodies, FilterReport& report) noexcept;
   void gather_walls(const Vec2& z, const Body& own, double reserve_m, Priority priority, FilterReport& report) noexcept;
   void gather_edges(const Vec2& z, const Body& own, std::span<const field::Segment> no_fly, double reserve_m,
                     Priority priority, FilterReport& report) noexcept;

@@ -14,9 +14,10 @@ enum class Priority : std::uint8_t {
   kPhysicalRadius,  ///< bodies that would touch
   kSeparation,      ///< R_s
   kWall,            ///< R_wall and the no-fly buffer
-  kMargin           ///< what is kept beyond these for noise, delay and drones that are lost
+  kMargin,          ///< what is kept beyond these for noise, wind and limits, which are always there
+  kDoubt            ///< and beyond that, for what lost and failed drones might do
 };
-inline constexpr std::size_t kPriorities = 4;
+inline constexpr std::size_t kPriorities = 5;
 
 /// The half-plane normal . u >= offset. The normal need not be of unit length (rows are normalised inside, so that a
 /// violation is a speed); a zero normal is a row that says only 0 >= offset:
