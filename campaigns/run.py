@@ -158,6 +158,7 @@ def main():
     if arguments.share < 1:
         parser.error("--share must be at least 1")
 
+    arguments.out.mkdir(parents=True, exist_ok=True)
     results, faults, lines = {}, [], [HEAD, "|" + " --- |" * (HEAD.count("|") - 1)]
     for campaign in CAMPAIGNS:
         if arguments.names and campaign.name not in arguments.names:

@@ -38,13 +38,6 @@ double longest_burst_s(const Mission& mission) {
   return (1.0 + more) * period_s(mission, link.rate_hz);
 }
 
-double longest_cut_s(const Mission& mission) {
-  double longest = 0.0;
-  for (const EventEntry& event : mission.simulation.events)
-    if (event.what == EventKind::kLoseLink) longest = std::max(longest, event.for_s);
-  return longest;
-}
-
 double unsteady_delay_s(const Mission& mission) {
   const double off = std::abs(command_delay_s(mission) - derived_command_delay_s(mission));
   if (is_steady(mission)) return off;
@@ -92,12 +85,9 @@ double derived_observation_delay_s(const Mission& mission) {
 double derived_silence_s(const Mission& mission) {
   const dynamics::VehicleModel vehicle = assumed_vehicle(mission);
   const double hovers_after_s = dynamics::failsafe_of(vehicle.kind).hover_after_s;
-  const double burst_s = longest_burst_s(mission);
-  if (!std::isfinite(hovers_after_s)) return burst_s;  // one that is cut off for good flies out of any field
-  const double silence_s = std::max(burst_s, longest_cut_s(mission));
-  if (silence_s <= hovers_after_s) return silence_s;
+  if (!std::isfinite(hovers_after_s)) return longest_burst_s(mission);  // cut off for good, it flies out of any field
   const double u_max = mission.control.speed_limit_m_s;
-  return std::min(silence_s, hovers_after_s + dynamics::stop_from(vehicle.horizontal, u_max).distance_m / u_max);
+  return hovers_after_s + dynamics::stop_from(vehicle.horizontal, u_max).distance_m / u_max;
 }
 
 MarginProblem margin_problem(const Mission& mission) {

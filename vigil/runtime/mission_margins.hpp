@@ -19,8 +19,9 @@ namespace vigil::runtime {
 /// The greatest age of an observation while nothing is lost.
 [[nodiscard]] double derived_observation_delay_s(const Mission& mission);
 
-/// For so long orders may stay away: a loss of packets that one in a million is longer than, or a lose_link event; not
-/// longer than the vehicle's failsafe lets it fly on, and its stop.
+/// For so long orders may stay away, and nothing may be hit: until the vehicle's failsafe lets it hover, and its stop,
+/// so that the swarm is safe should this program end at any moment. A vehicle without a failsafe: a loss of packets
+/// that one in a million is longer than.
 [[nodiscard]] double derived_silence_s(const Mission& mission);
 
 /// What the mission would be given where it gives nothing. Meaningless for the barrier `paper`.

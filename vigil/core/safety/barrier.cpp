@@ -10,6 +10,9 @@ namespace {
 
 /// What the escape from h < 0 speeds up with: a drone that is R - d too close asks for 5/s (R - d).
 constexpr double kEscapeRate = 5.0;
+/// A gain may be low to leave time for what is lost or slow; what must hold when there is no room for more, and
+/// outranks walls, must not use that up.
+constexpr double kBareGain = 5.0;
 /// Closer to a barrier's boundary than this is on it. Rounding of one tick must not look like a violation.
 constexpr double kOnBoundary = 1e-9;
 /// Points closer than this have no direction from one to the other.
@@ -191,7 +194,9 @@ PairBarrier margin_barrier(const BarrierParameters& parameters, const Body& othe
 }
 
 PairBarrier bare_separation_barrier(const BarrierParameters& parameters, const Body& other) {
-  return barrier_of_distance(parameters, other, parameters.separation_m, 0.0, parameters.pair_gain);
+  const bool is_paper = parameters.kind == BarrierKind::kPaper;
+  const double gain = is_paper ? parameters.pair_gain : std::max(parameters.pair_gain, kBareGain);
+  return barrier_of_distance(parameters, other, parameters.separation_m, 0.0, gain);
 }
 
 PairBarrier contact_barrier(const BarrierParameters& parameters, const Body& other) {
