@@ -21,8 +21,7 @@ bool concerns_drones(CommandKind kind) { return kind != CommandKind::kSetTarget 
 
 LiveFlight::LiveFlight(const Mission& mission, Fleet& fleet, VirtualFleet* world, Recorder* recorder,
                        const LiveStart& start)
-    : mission_(mission),
-      fleet_(fleet),
+    : fleet_(fleet),
       world_(world),
       recorder_(recorder),
       state_(swarm_parameters(mission, start.first_intent)),

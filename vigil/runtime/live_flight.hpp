@@ -79,7 +79,6 @@ class LiveFlight {
   void judge_and_record(const swarm::Snapshot& snapshot) noexcept;
   void give_orders(const swarm::Snapshot& snapshot) noexcept;
 
-  const Mission& mission_;
   Fleet& fleet_;
   VirtualFleet* world_;
   Recorder* recorder_;
