@@ -252,6 +252,13 @@ Json client_messages() {
   return cases;
 }
 
+/// Of the mission's sections only some: what a mission file may say grows without the protocol.
+Json mission_vector(const runtime::Mission& mission) {
+  Json message = mission_message(mission, 3);
+  for (const char* section : {"control", "safety", "health", "sensor", "simulation"}) message["mission"].erase(section);
+  return message;
+}
+
 Json server_messages() {
   const runtime::Mission mission = runtime::parse_mission(kMission, "the vectors' mission");
   runtime::MissionDesk desk(mission);
@@ -278,7 +285,7 @@ Json server_messages() {
     list.push_back({{"name", name}, {"message", std::move(message)}});
   };
   add("hello", hello_json(ana, "vigil 0.1.0", true));
-  add("mission", mission_message(mission, 3));
+  add("mission", mission_vector(mission));
   add(is_refused ? "targets, not changed" : "targets", targets_json(desk, 3));
   add("events", events_json({event_json(event)}));
   add("status", status_json(areas, status));
