@@ -60,6 +60,8 @@ class Console(unittest.TestCase):
 
     def test_a_command_is_answered_and_everybody_is_told(self):
         ana, ben = self.client(name="Ana"), self.client(name="Ben")
+        while ana.snapshot()["tick"] == 0:  # the first tick is when drones are seen at all
+            pass
         answer = ana.ask(type="hold", id=1, drones=["cf1"])
         self.assertEqual(answer["type"], "ack")
         event = ben.wait_for_event("held", "cf1")
