@@ -149,8 +149,7 @@ class Campaign(unittest.TestCase):
         self.refused(LAB, "--out", out, "--runs", 3, "--vary", "control.fadde=0..1")
         self.refused(LAB, "--out", out, "--runs", 3, "--set", "control.fadde=1")
         self.assertIn("no free place", self.refused(MISSIONS / "crowd.yaml", "--out", out, "--runs", 3, "--vary", "starts",
-                                                    "--set", "field.size_m=[2.6, 2.6]", "drone_grid.count=49",
-                                                    "targets.clusters=[]"))
+                                                    "--set", "safety.separation_m=0.45"))
         self.refused(self.folder / "nowhere.yaml", "--out", out, "--runs", 3)
         self.assertFalse(out.exists())
 
