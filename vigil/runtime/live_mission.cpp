@@ -1,6 +1,8 @@
 #include "vigil/runtime/live_mission.hpp"
 
 #include <chrono>
+#include <pthread.h>
+#include <sched.h>
 #include <utility>
 
 namespace vigil::runtime {
@@ -8,7 +10,16 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
+/// Before everybody else, where the system lets it (root, or a limit on rtprio): ticks are short and cannot wait.
+/// Elsewhere ticks take their turn, and their lateness shows.
+void ask_for_priority() {
+  sched_param priority{};
+  priority.sched_priority = sched_get_priority_min(SCHED_FIFO);
+  (void)pthread_setschedparam(pthread_self(), SCHED_FIFO, &priority);
+}
+
 void run(const std::stop_token& stop, ControlLoop& loop) {
+  ask_for_priority();
   loop.begin(Clock::now().time_since_epoch());
   while (!stop.stop_requested()) {
     const ControlLoop::Time next = loop.turn(Clock::now().time_since_epoch());
