@@ -167,8 +167,8 @@ fetch_page_tools() {
 # The console's page, web/dist: built when something below web/ is newer than it.
 build_page() {
   fetch_page_tools
-  local changed
-  changed=$(find "$root/web" -mindepth 1 \( -path "$root/web/node_modules" -o -path "$root/web/dist" \
-    -o -path "$root/web/artefacts" \) -prune -o -newer "$root/web/dist/index.html" -print -quit 2>&1)
-  [[ -z $changed ]] || quietly page "Building the console's page" npm --prefix "$root/web" run build
+  local page="$root/web/dist/index.html"
+  [[ -f $page && -z $(find "$root/web" -mindepth 1 \( -path "$root/web/node_modules" -o -path "$root/web/dist" \
+    -o -path "$root/web/artefacts" \) -prune -o -newer "$page" -print -quit) ]] ||
+    quietly page "Building the console's page" npm --prefix "$root/web" run build
 }
