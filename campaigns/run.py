@@ -42,6 +42,7 @@ CAMPAIGNS = (
         ("safety.barrier=paper", "safety.lag_s=0", "safety.margin_m=0"),
         bar="broken",
     ),
+    Campaign("crowd-lost", "crowd.yaml", 500, ("starts", "faults=10:lose_tracking")),
     Campaign("swap-8", "crossings/swap_8.yaml", 100, ("seed",), bar="solved:99"),
     Campaign("swap-16", "crossings/swap_16.yaml", 100, ("seed",), bar="solved:99"),
     Campaign("places-10", "crossings/places_10.yaml", 100, ("starts",), bar="solved:91"),

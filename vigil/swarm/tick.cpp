@@ -50,14 +50,14 @@ bool is_steered(Activity activity) {
          activity == Activity::kRecovering;
 }
 
-/// Whether it goes up or down by itself over one place: commanded to stand still, which is what a drone that gives way
-/// to nobody may do, since u = 0 satisfies every barrier that is not broken yet.
+/// Whether it goes up or down by itself over one place, or hovers because it is not tracked: commanded to stand still,
+/// which is what a drone that gives way to nobody may do, since u = 0 satisfies every barrier that is not broken yet.
 bool stands_still(Activity activity) {
-  return activity == Activity::kTakingOff || activity == Activity::kLanding || activity == Activity::kBatteryLow;
+  return activity == Activity::kTakingOff || activity == Activity::kLanding || activity == Activity::kBatteryLow ||
+         activity == Activity::kTrackingLost;
 }
 
-/// Whether it may move sideways although nobody here steers it. A drone that is not tracked is told to hover; how far
-/// it may have gone is a matter of its age.
+/// Whether it may move sideways although nobody here steers it.
 bool may_wander(Activity activity) {
   return activity == Activity::kOverridden || activity == Activity::kMarkedFailed ||
          activity == Activity::kVehicleFailed || activity == Activity::kLinkLost;
@@ -90,6 +90,7 @@ SwarmState::SwarmState(const SwarmParameters& parameters)
       target_(no_target(basis_)),
       drones_(parameters.drones),
       motions_(parameters.drones),
+      seen_ages_(parameters.drones, DroneObservation::kNever),
       bodies_(parameters.drones),
       u_nom_(parameters.drones, Vec2::Zero()),
       u_(parameters.drones, Vec2::Zero()),
@@ -200,17 +201,28 @@ Vec2 SwarmState::within_walls(const Vec2& place) const noexcept {
   return place.cwiseMax(least).cwiseMin(size - least);
 }
 
-/// What observations and orders take is made up for by what was ordered meanwhile. Nothing is known to follow our
-/// orders but a drone that is steered, and the paper's barrier knows of no delay.
+/// What observations and orders take is made up for by what was ordered meanwhile, also of a drone that is steered no
+/// more: what was ordered before is still on its way to it. While nothing new is seen of it, it is where its orders
+/// lead. A pilot's drone follows no orders, one that says that it failed stops, and the paper's barrier knows of no
+/// delay.
 void SwarmState::predict_drones() noexcept {
   for (std::size_t index = 0; index < drones_.size(); ++index) {
     const DroneObservation& known = drones_[index].last_good;
-    motions_[index] = {known.position, known.velocity};
+    const bool is_new = known.age_s < seen_ages_[index] + 0.5 * parameters_.dt_s;
+    seen_ages_[index] = known.age_s;
+    const Motion seen{known.position, known.velocity};
     const bool is_paper = parameters_.barrier.kind == safety::BarrierKind::kPaper;
-    if (is_paper || !is_steered(drones_[index].activity)) continue;
-    const double span_s = known.age_s + parameters_.command_delay_s;
-    const Motion ahead = flown_.ahead(index, motions_[index], span_s, parameters_.barrier.lag_s);
-    if (ahead.position.allFinite() && ahead.velocity.allFinite()) motions_[index] = ahead;
+    const double lag_s = parameters_.barrier.lag_s;
+    Motion ahead = seen;
+    const Activity activity = drones_[index].activity;
+    if (!is_paper && activity == Activity::kVehicleFailed) {
+      ahead = {seen.position + lag_s * seen.velocity, Vec2::Zero()};
+    } else if (!is_paper && activity != Activity::kOverridden) {
+      ahead = is_new ? flown_.ahead(index, seen, known.age_s + parameters_.command_delay_s, lag_s)
+                     : flown_.ahead(index, motions_[index], parameters_.dt_s, lag_s);
+    }
+    const bool is_finite = ahead.position.allFinite() && ahead.velocity.allFinite();
+    motions_[index] = is_finite ? ahead : seen;
   }
 }
 
@@ -299,7 +311,7 @@ double SwarmState::assumed_age(const DroneMemory& drone) const noexcept {
   if (parameters_.barrier.kind == safety::BarrierKind::kPaper && !is_lost) return 0.0;
   // Once its position or its link is lost a drone is told to stop, or stops by its own failsafe: it wanders no farther.
   const double longest = parameters_.health.tracking_timeout_s + parameters_.health.link_timeout_s;
-  const double predicted = is_lost ? 0.0 : parameters_.observation_delay_s;
+  const double predicted = parameters_.observation_delay_s;
   return std::clamp(drone.last_good.age_s - predicted, 0.0, longest);
 }
 
@@ -309,6 +321,10 @@ safety::Body SwarmState::body_of(std::size_t index) const noexcept {
   body.position = motions_[index].position;
   body.velocity = motions_[index].velocity;
   body.age_s = assumed_age(drone);
+  // What a drone that is not heard, or that somebody calls failed, did with the orders on their way to it, nobody
+  // knows.
+  if (drone.activity == Activity::kLinkLost || drone.activity == Activity::kMarkedFailed)
+    body.age_s += (body.position - drone.last_good.position).norm() / parameters_.barrier.u_max_m_s;
   body.is_controlled = is_steered(drone.activity) || stands_still(drone.activity);
   // Others clear the air above a drone that is to take off.
   const bool takes_room = is_airborne(drone, parameters_.health) || wants_up(drone);
@@ -320,6 +336,8 @@ safety::Body SwarmState::body_of(std::size_t index) const noexcept {
 void SwarmState::keep_safe(Snapshot& out) noexcept {
   for (std::size_t index = 0; index < drones_.size(); ++index) bodies_[index] = body_of(index);
   filter_.run(bodies_, target_.no_fly, u_nom_, u_, reports_);
+  for (std::size_t index = 0; index < drones_.size(); ++index)
+    if (!is_steered(drones_[index].activity)) u_[index].setZero();
   out.fallback = std::any_of(reports_.begin(), reports_.end(), [](const auto& report) { return report.fallback; });
 }
 
