@@ -60,6 +60,7 @@ void print_for_people(const runtime::FlightSummary& summary, const fs::path& out
   fmt::print("{}: {} drones, {:g} s{}\n", summary.mission, summary.drones, summary.duration_s,
              summary.complete ? "" : " (stopped before its time)");
   if (summary.first_metric) fmt::print("  ergodic metric     {:.2f} % of its first value\n", summary.last_percent);
+  if (summary.goals) fmt::print("  goals reached      {}\n", summary.goals->reached);
   fmt::print("  least separation   {} airborne, {} active\n", metres(audit.least.airborne_pair_m),
              metres(audit.least.active_pair_m));
   fmt::print("  least wall         {}\n", metres(audit.least.wall_m));

@@ -211,6 +211,9 @@ void add_contradictions(std::vector<MalformedMission>& table) {
   add("a lag for the paper's barrier", but("barrier: lag_aware", "barrier: paper"), "safety.lag_s", "must be 0 there");
   add("a lag for the ideal vehicle", but("{model: first_order_lag, lag_s: 0.1}", "{model: ideal, lag_s: 0.1}"),
       "simulation.vehicle.lag_s", "has no meaning");
+  add("a delay that nobody can make up for",
+      but("{model: first_order_lag, lag_s: 0.1}", "{model: first_order_lag, lag_s: 0.1, command_delay_s: 3}"),
+      "simulation.vehicle.command_delay_s", "at most 2 s in all");
   add("a lag for a recorded vehicle", but("{model: first_order_lag, lag_s: 0.1}", "{model: crazyflie, lag_s: 0.1}"),
       "simulation.vehicle.lag_s", "has no meaning for the model `crazyflie`");
   add("an acceleration limit for a recorded vehicle",

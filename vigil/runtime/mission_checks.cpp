@@ -7,7 +7,9 @@
 
 #include <fmt/format.h>
 
+#include "vigil/runtime/mission_margins.hpp"
 #include "vigil/runtime/mission_setup.hpp"
+#include "vigil/swarm/parameters.hpp"
 
 namespace vigil::runtime {
 namespace {
@@ -88,6 +90,20 @@ void check_lag(const Mission& mission, const MissionSource& source) {
   if (mission.safety.lag_s.value_or(0.0) > 0.0) refuse_for_paper("safety.lag_s");
   if (mission.safety.margin_m.value_or(0.0) > 0.0) refuse_for_paper("safety.margin_m");
   if (mission.safety.pair_margin_m.value_or(0.0) > 0.0) refuse_for_paper("safety.pair_margin_m");
+}
+
+void check_delay(const Mission& mission, const MissionSource& source) {
+  if (mission.safety.barrier == safety::BarrierKind::kPaper || mission.safety.command_delay_s) return;
+  const double delay_s = simulated_command_delay_s(mission);
+  if (delay_s <= swarm::kLongestPredictionS) return;
+  source.refuse(
+      {.place = "",
+       .key = "simulation.vehicle.command_delay_s",
+       .value = "",
+       .problem = fmt::format("makes orders act {:.4g} s late, with the link's delay and the model's", delay_s),
+       .valid = fmt::format("must leave at most {:.4g} s in all, which the controller can make up for",
+                            swarm::kLongestPredictionS),
+       .advice = "take a shorter delay, or give safety.command_delay_s to see what happens"});
 }
 
 void check_duration(const Mission& mission, const MissionSource& source) {
@@ -263,6 +279,7 @@ void check_numbers(const Mission& mission, const MissionSource& source) {
   check_distances(mission, source);
   check_memory(mission, source);
   check_lag(mission, source);
+  check_delay(mission, source);
   check_duration(mission, source);
   check_simulation(mission, source);
   check_ranges(mission, source);  // needs the margins that the simulated world leads to

@@ -179,5 +179,20 @@ TEST(MissionNotes, The_papers_choices_that_change_its_result_are_noted) {
   EXPECT_TRUE(any_note_says(mission, "avoided by nobody"));
 }
 
+TEST(MissionExplanation, What_the_filter_is_told_wrongly_is_noted) {
+  Mission mission = right();
+  EXPECT_FALSE(any_note_says(mission, "another one than the simulated one"));
+  mission.safety.vehicle = AssumedVehicle::kPx4;
+  EXPECT_TRUE(any_note_says(mission, "another one than the simulated one"));
+  mission = right();
+  mission.simulation.vehicle.command_delay_s = 0.3;
+  EXPECT_FALSE(any_note_says(mission, "than what orders take"));
+  mission.safety.command_delay_s = 0.1;
+  EXPECT_TRUE(any_note_says(mission, "than what orders take, 0.3 s"));
+  mission = right();
+  mission.simulation.wind.gust_m_s = 20.0;
+  EXPECT_TRUE(any_note_says(mission, "no margin makes that safe"));
+}
+
 }  // namespace
 }  // namespace vigil::runtime

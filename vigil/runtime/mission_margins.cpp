@@ -21,7 +21,7 @@ double hold_s(const Mission& mission) { return period_s(mission, mission.simulat
 
 bool is_steady(const Mission& mission) { return mission.simulation.link.jitter_s <= 0.0 && hold_s(mission) <= 0.0; }
 
-double average_command_delay_s(const Mission& mission) {
+double average_delay_s(const Mission& mission) {
   const LinkSection& link = mission.simulation.link;
   return mission.simulation.vehicle.command_delay_s + link.delay_s + 0.5 * link.jitter_s + 0.5 * hold_s(mission) +
          assumed_vehicle(mission).horizontal.response_delay_s;
@@ -67,9 +67,11 @@ dynamics::VehicleModel assumed_vehicle(const Mission& mission) {
   return vehicle_model(mission);
 }
 
+double simulated_command_delay_s(const Mission& mission) { return average_delay_s(mission); }
+
 double derived_command_delay_s(const Mission& mission) {
   const double dt_s = tick_s(mission);
-  const double average_s = average_command_delay_s(mission);
+  const double average_s = average_delay_s(mission);
   const double delay_s = is_steady(mission) ? dt_s * std::round(average_s / dt_s) : average_s;
   return std::min(delay_s, swarm::kLongestPredictionS);
 }

@@ -15,6 +15,8 @@ namespace vigil::runtime {
 /// From a decision to the vehicle's answer on average: its dead time, the link's way, half of the time between two
 /// packets. In whole ticks where all of it is steady, as the simulator has it.
 [[nodiscard]] double derived_command_delay_s(const Mission& mission);
+/// The same, however long it is: derived_command_delay_s() is at most what can be made up for.
+[[nodiscard]] double simulated_command_delay_s(const Mission& mission);
 
 /// The greatest age of an observation while nothing is lost.
 [[nodiscard]] double derived_observation_delay_s(const Mission& mission);

@@ -48,6 +48,28 @@ void note_below(std::string_view key, const std::optional<double>& given, double
                   key, *given, derived));
 }
 
+/// What the filter is told of the world, and what the simulated world is.
+void note_contradictions(const Mission& mission, Notes& notes) {
+  const SafetySection& safety = mission.safety;
+  if (safety.vehicle != AssumedVehicle::kSimulated && assumed_vehicle(mission).kind != mission.simulation.vehicle.model)
+    notes.emplace_back(
+        "safety.vehicle is another one than the simulated one: margins are for a vehicle that does not fly.");
+  const double delay_s = simulated_command_delay_s(mission);
+  if (safety.command_delay_s && *safety.command_delay_s < delay_s - 2.0 * tick_s(mission)) {
+    notes.push_back(
+        fmt::format("safety.command_delay_s ({:.4g} s) is less than what orders take, {:.4g} s: drones are "
+                    "steered from where they are no more.",
+                    *safety.command_delay_s, delay_s));
+  }
+  const double push_m_s = 3.0 * margin_problem(mission).push_m_s2 * barrier_parameters(mission).lag_s;
+  if (push_m_s > 0.5 * mission.control.speed_limit_m_s) {
+    notes.push_back(
+        fmt::format("Gusts push by up to {:.3g} m/s, against at most {:.3g} m/s of the drones' own: no margin "
+                    "makes that safe.",
+                    push_m_s, mission.control.speed_limit_m_s));
+  }
+}
+
 /// A mission that gives values of its own is compared with what they should be for its lag and gains.
 void note_margins(const Mission& mission, Notes& notes) {
   const SafetySection& safety = mission.safety;
@@ -57,6 +79,7 @@ void note_margins(const Mission& mission, Notes& notes) {
         fmt::format("safety.lag_s ({} s) is less than the vehicle's lag ({} s): separation is not guaranteed.",
                     *safety.lag_s, vehicle.lag_s));
   }
+  note_contradictions(mission, notes);
   if (!safety.margin_m && !safety.pair_margin_m) return;
   const safety::BarrierParameters barrier = barrier_parameters(mission);
   MarginProblem problem = margin_problem(mission);
