@@ -97,7 +97,7 @@ class Flight {
   }
 
   [[nodiscard]] Vec2 wish_of(std::size_t i) {
-    const Vec2 at = towards(states_[i].position, states_[(i + 1) % plan_.drones].position);
+    Vec2 at = towards(states_[i].position, states_[(i + 1) % plan_.drones].position);
     const bool presses = is_before(0.75);
     const bool is_first = is_before(0.5);
     switch (plan_.wish) {

@@ -266,7 +266,7 @@ void Hub::submit(std::vector<runtime::LiveCommand> commands, std::uint64_t ticke
   wait_for_control(waiting_.at(ticket));
 }
 
-void Hub::wait_for_control(Waiting& waiting) {
+void Hub::wait_for_control(Waiting& waiting) const {
   waiting.is_at_control = true;
   waiting.answer_by = links_.now() + 100ms;
 }

@@ -129,7 +129,7 @@ class Hub {
   void ask_desk(std::uint64_t ticket, std::function<void(Desk&)> task);
   void refuse(std::uint64_t ticket, std::string_view code, std::string reason);
   void preview(const PreviewDensity& body, const Author& author, std::uint64_t request, std::uint64_t ticket);
-  void wait_for_control(Waiting& waiting);
+  void wait_for_control(Waiting& waiting) const;
   void set_editing(ClientId client, const Editing& editing);
   void tell_presence();
 
