@@ -28,7 +28,7 @@ namespace beast = boost::beast;
 namespace http = beast::http;
 namespace websocket = beast::websocket;
 namespace net = boost::asio;
-using tcp = net::ip::tcp;
+using Tcp = net::ip::tcp;
 using Error = boost::system::error_code;
 using namespace std::chrono_literals;
 
@@ -275,7 +275,7 @@ class Visit : public std::enable_shared_from_this<Visit<Stream>> {
 
   void finish() {
     Error ignored;
-    beast::get_lowest_layer(stream_).socket().shutdown(tcp::socket::shutdown_both, ignored);
+    beast::get_lowest_layer(stream_).socket().shutdown(Tcp::socket::shutdown_both, ignored);
   }
 
   Stream stream_;
@@ -293,7 +293,7 @@ double wall_ms_now() {
   return std::chrono::duration<double, std::milli>(std::chrono::system_clock::now().time_since_epoch()).count();
 }
 
-tcp::endpoint endpoint_of(const ServerOptions& options) {
+Tcp::endpoint endpoint_of(const ServerOptions& options) {
   Error error;
   const auto address = net::ip::make_address(options.address == "localhost" ? "127.0.0.1" : options.address, error);
   if (error)
@@ -359,7 +359,7 @@ class Server::Sockets {
   }
 
  private:
-  void listen(const tcp::endpoint& endpoint) {
+  void listen(const Tcp::endpoint& endpoint) {
     Error error;
     acceptor_.open(endpoint.protocol(), error);
     if (!error) acceptor_.set_option(net::socket_base::reuse_address(true), error);
@@ -371,7 +371,7 @@ class Server::Sockets {
   }
 
   void accept_next() {
-    acceptor_.async_accept([this](Error error, tcp::socket socket) {
+    acceptor_.async_accept([this](Error error, Tcp::socket socket) {
       if (!acceptor_.is_open()) return;
       if (!error && connections_ < kMostConnections) welcome(std::move(socket));
       if (error) return wait_to_accept();
@@ -387,9 +387,9 @@ class Server::Sockets {
     });
   }
 
-  void welcome(tcp::socket socket) {
+  void welcome(Tcp::socket socket) {
     Error ignored;
-    socket.set_option(tcp::no_delay(true), ignored);
+    socket.set_option(Tcp::no_delay(true), ignored);
     socket.set_option(net::socket_base::send_buffer_size(kSendBufferBytes), ignored);
     Seat seat(connections_);
     if (tls_)
@@ -433,7 +433,7 @@ class Server::Sockets {
   std::optional<net::ssl::context> tls_;
   std::size_t connections_ = 0;  // outlives the connections, which the context keeps
   net::io_context context_{1};
-  tcp::acceptor acceptor_{context_};
+  Tcp::acceptor acceptor_{context_};
   net::steady_timer accept_timer_{context_};
   net::steady_timer poll_timer_{context_};
   net::steady_timer over_timer_{context_};
