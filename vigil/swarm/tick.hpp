@@ -91,7 +91,7 @@ class SwarmState {
   std::vector<ergodic::Departure> departures_;  ///< of the active drones
   std::vector<Vec2> slopes_;
   std::vector<Vec2> active_u_;
-  std::vector<Motion> motions_;  ///< of all drones, as they will be when this tick's orders begin to act
+  std::vector<Motion> motions_;    ///< of all drones, as they will be when this tick's orders begin to act
   std::vector<double> seen_ages_;  ///< of all drones: their observations' ages in the last tick
   std::vector<guidance::Traveller> travellers_;
   std::vector<Vec2> travel_u_;
