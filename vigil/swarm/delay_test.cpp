@@ -4,28 +4,21 @@
 
 #include <gtest/gtest.h>
 
-#include "vigil/swarm/tick.hpp"
+#include "vigil/swarm/ideal_world_for_tests.hpp"
 
 namespace vigil::swarm {
 namespace {
 
-constexpr double kDt = 0.02;
 constexpr double kLag = 0.3;
 constexpr std::size_t kTicksUp = 15;   ///< 0.3 s from decision to reaction
 constexpr std::size_t kTicksDown = 4;  ///< 0.08 s from measurement to decision
 
 SwarmParameters crossing(bool makes_up_for_delays) {
-  SwarmParameters parameters;
+  SwarmParameters parameters = laboratory(8);
   parameters.field = {6.0, 6.0};
-  parameters.drones = 8;
-  parameters.dt_s = kDt;
-  parameters.barrier.separation_m = 0.2;
-  parameters.barrier.contact_distance_m = 0.1;
   parameters.barrier.wall_distance_m = 0.1;
   parameters.barrier.u_max_m_s = 0.8;
-  parameters.barrier.dt_s = kDt;
   parameters.barrier.lag_s = kLag;
-  parameters.first_intent = Intent::kCover;
   if (makes_up_for_delays) parameters.command_delay_s = kTicksUp * kDt;
   parameters.observation_delay_s = kTicksDown * kDt;  // never counted as unknown here
   return parameters;
@@ -68,12 +61,9 @@ class LateWorld {
     seen_.pop_front();
     seen_.push_back(bodies_);
     for (std::size_t i = 0; i < 8; ++i) {
-      observations_[i].position = seen_.front()[i].position;
+      observations_[i] = flying_at(seen_.front()[i].position);
       observations_[i].velocity = seen_.front()[i].velocity;
-      observations_[i].height_m = 1.0;
       observations_[i].age_s = kTicksDown * kDt;
-      observations_[i].link_age_s = 0.0;
-      observations_[i].mode = VehicleMode::kFlying;
     }
     time_s_ += kDt;
     if (lost_ < 8 && time_s_ > lost_from_s_) {

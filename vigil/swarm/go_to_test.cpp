@@ -1,63 +1,27 @@
+#include <algorithm>
 #include <limits>
 
 #include <gtest/gtest.h>
 
-#include "vigil/swarm/tick.hpp"
+#include "vigil/swarm/ideal_world_for_tests.hpp"
 
 namespace vigil::swarm {
 namespace {
 
-constexpr double kDt = 0.02;
-
-SwarmParameters three_drones() {
-  SwarmParameters parameters;
-  parameters.field = {3.0, 3.0};
-  parameters.drones = 3;
-  parameters.dt_s = kDt;
-  parameters.barrier.separation_m = 0.2;
-  parameters.barrier.contact_distance_m = 0.1;
-  parameters.barrier.wall_distance_m = 0.17;
-  parameters.barrier.u_max_m_s = 0.3;
-  parameters.barrier.dt_s = kDt;
-  parameters.first_intent = Intent::kCover;
-  return parameters;
-}
-
-/// Ideal drones around a tick.
-struct World {
-  World() : state(three_drones()), snapshot(3), observations(3) {
-    for (std::size_t i = 0; i < 3; ++i) {
-      observations[i].position = Vec2(0.5 + static_cast<double>(i), 0.5);
-      observations[i].height_m = 1.0;
-      observations[i].age_s = 0.0;
-      observations[i].link_age_s = 0.0;
-      observations[i].mode = VehicleMode::kFlying;
-    }
-  }
-  void step(std::vector<Command> commands = {}) {
-    tick(state, observations, commands, snapshot);
-    for (std::size_t i = 0; i < 3; ++i) observations[i].position += kDt * snapshot.drones[i].order.velocity;
-  }
-  void run(double seconds) {
-    for (double t = 0.0; t < seconds; t += kDt) step();
-  }
+/// Three drones of the laboratory, side by side.
+struct World : IdealWorld {
+  World() : IdealWorld(laboratory(3), {{0.5, 0.5}, {1.5, 0.5}, {2.5, 0.5}}) {}
   /// Whether the drone's wish of the last tick was accepted.
   [[nodiscard]] bool accepted(std::size_t drone) const {
     return std::ranges::any_of(snapshot.events, [&](const Event& event) {
       return event.kind == EventKind::kWishAccepted && event.drone == DroneId(drone);
     });
   }
-  [[nodiscard]] Activity activity(std::size_t drone) const { return snapshot.drones[drone].activity; }
-  SwarmState state;
-  Snapshot snapshot;
-  std::vector<DroneObservation> observations;
 };
 
 Command go_to(std::size_t drone, const Vec2& place) {
   return {.kind = CommandKind::kGoTo, .drone = DroneId(drone), .place = place, .target = {}};
 }
-
-Command wish(CommandKind kind, std::size_t drone) { return {.kind = kind, .drone = DroneId(drone), .target = {}}; }
 
 TEST(GoTo, A_drone_that_is_sent_to_a_place_flies_there_and_waits) {
   World world;
@@ -138,8 +102,7 @@ TEST(GoTo, Travellers_keep_their_distance_from_those_that_cover) {
   for (int k = 0; k < 2000; ++k) {
     world.step();
     for (std::size_t i = 0; i < 3; ++i)
-      for (std::size_t j = 0; j < i; ++j)
-        least = std::min(least, (world.observations[i].position - world.observations[j].position).norm());
+      for (std::size_t j = 0; j < i; ++j) least = std::min(least, world.distance(i, j));
   }
   EXPECT_GE(least, 0.2 - 1e-9);
 }

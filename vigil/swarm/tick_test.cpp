@@ -8,27 +8,18 @@
 #include <gtest/gtest.h>
 
 #include "vigil/core/field/density.hpp"
+#include "vigil/swarm/ideal_world_for_tests.hpp"
 #include "vigil/testing/allocation_guard.hpp"
 
 namespace vigil::swarm {
 namespace {
 
-constexpr double kDt = 0.02;
-
+/// The laboratory under the paper's own barrier.
 SwarmParameters parameters(std::size_t drones) {
-  SwarmParameters parameters;
-  parameters.field = {3.0, 3.0};
-  parameters.drones = drones;
-  parameters.dt_s = kDt;
+  SwarmParameters parameters = laboratory(drones);
   parameters.barrier.kind = safety::BarrierKind::kPaper;
-  parameters.barrier.separation_m = 0.2;
-  parameters.barrier.contact_distance_m = 0.1;
-  parameters.barrier.wall_distance_m = 0.17;
-  parameters.barrier.u_max_m_s = 0.3;
-  parameters.barrier.dt_s = kDt;
   parameters.barrier.pair_gain = 10.0;
   parameters.barrier.wall_gain = 10.0;
-  parameters.first_intent = Intent::kCover;
   return parameters;
 }
 
@@ -45,43 +36,6 @@ std::shared_ptr<const CoverageTarget> target_around(const SwarmState& state, con
 Command set_target(std::shared_ptr<const CoverageTarget> target) {
   return {.kind = CommandKind::kSetTarget, .drone = {}, .target = std::move(target)};
 }
-
-Command wish(CommandKind kind, std::size_t drone) { return {.kind = kind, .drone = DroneId(drone), .target = {}}; }
-
-/// Ideal drones around a tick: what is asked for happens.
-class IdealWorld {
- public:
-  IdealWorld(const SwarmParameters& parameters, std::vector<Vec2> starts)
-      : state(parameters), snapshot(parameters.drones), observations(parameters.drones) {
-    for (std::size_t i = 0; i < starts.size(); ++i) {
-      observations[i].position = starts[i];
-      observations[i].height_m = 1.0;
-      observations[i].age_s = 0.0;
-      observations[i].link_age_s = 0.0;
-      observations[i].mode = VehicleMode::kFlying;
-    }
-  }
-
-  void step(std::vector<Command> commands = {}) {
-    tick(state, observations, commands, snapshot);
-    for (std::size_t i = 0; i < observations.size(); ++i)
-      observations[i].position += snapshot.drones[i].order.velocity * kDt;
-  }
-  void run(double seconds) {
-    for (double t = 0.0; t < seconds; t += kDt) step();
-  }
-  void land(std::size_t drone) {
-    observations[drone].mode = VehicleMode::kGrounded;
-    observations[drone].height_m = 0.0;
-  }
-  [[nodiscard]] double distance(std::size_t a, std::size_t b) const {
-    return (observations[a].position - observations[b].position).norm();
-  }
-
-  SwarmState state;
-  Snapshot snapshot;
-  std::vector<DroneObservation> observations;
-};
 
 TEST(Tick, Covering_drones_bring_the_metric_down) {
   IdealWorld world(parameters(3), {{0.5, 0.5}, {1.5, 0.5}, {2.5, 0.5}});
@@ -130,22 +84,14 @@ TEST(Tick, A_landed_drone_no_longer_repels_the_others) {
   IdealWorld world(parameters(2), {{1.5, 1.5}, {0.5, 1.5}});
   world.land(0);
   world.step({set_target(target_around(world.state, {1.5, 1.5}))});
-  double closest = 10.0;
-  for (double t = 0.0; t < 30.0; t += kDt) {
-    world.step();
-    closest = std::min(closest, world.distance(0, 1));
-  }
-  EXPECT_LT(closest, 0.1);
+  EXPECT_LT(world.least_distance(0, 1, 30.0), 0.1);
 }
 
 TEST(Tick, A_drone_that_failed_in_the_air_keeps_repelling_the_others) {
   IdealWorld world(parameters(2), {{1.5, 1.5}, {0.5, 1.5}});
   world.observations[0].mode = VehicleMode::kFailed;
   world.step({set_target(target_around(world.state, {1.5, 1.5}))});
-  for (double t = 0.0; t < 30.0; t += kDt) {
-    world.step();
-    ASSERT_GE(world.distance(0, 1), 0.2);
-  }
+  EXPECT_GE(world.least_distance(0, 1, 30.0), 0.2);
   EXPECT_EQ(world.snapshot.active, 1U);
   EXPECT_EQ(world.snapshot.drones[0].activity, Activity::kVehicleFailed);
 }
@@ -156,12 +102,7 @@ TEST(Tick, In_the_papers_reading_a_failed_drone_is_no_obstacle) {
   IdealWorld world(reading, {{1.5, 1.5}, {0.5, 1.5}});
   world.observations[0].mode = VehicleMode::kFailed;
   world.step({set_target(target_around(world.state, {1.5, 1.5}))});
-  double closest = 10.0;
-  for (double t = 0.0; t < 30.0; t += kDt) {
-    world.step();
-    closest = std::min(closest, world.distance(0, 1));
-  }
-  EXPECT_LT(closest, 0.1);
+  EXPECT_LT(world.least_distance(0, 1, 30.0), 0.1);
 }
 
 TEST(Tick, A_held_drone_covers_nothing_but_still_gives_way) {
