@@ -4,30 +4,14 @@
 
 #include <gtest/gtest.h>
 
+#include "vigil/core/safety/parameters_for_tests.hpp"
+
 namespace vigil::safety {
 namespace {
 
-/// The numbers of the paper's experiment.
-BarrierParameters paper() {
-  BarrierParameters parameters;
-  parameters.kind = BarrierKind::kPaper;
-  parameters.separation_m = 0.2;
-  parameters.contact_distance_m = 0.1;
-  parameters.wall_distance_m = 0.17;
-  parameters.no_fly_buffer_m = 0.1;
-  parameters.u_max_m_s = 0.3;
-  parameters.dt_s = 0.02;
-  parameters.pair_gain = 10.0;
-  parameters.wall_gain = 10.0;
-  return parameters;
-}
-
-BarrierParameters lag_aware() {
-  BarrierParameters parameters = paper();
-  parameters.kind = BarrierKind::kLagAware;
-  parameters.pair_gain = 5.0;
-  parameters.wall_gain = 5.0;
-  parameters.lag_s = 0.3;
+/// With margins for noise.
+BarrierParameters cautious() {
+  BarrierParameters parameters = lag_aware();
   parameters.margin_m = 0.02;
   parameters.pair_margin_m = 0.03;
   return parameters;
@@ -75,7 +59,7 @@ TEST(Barrier, The_papers_wall_row_is_equation_11) {
 }
 
 TEST(Barrier, The_lag_aware_rows_are_linear_in_h) {
-  const BarrierParameters parameters = lag_aware();
+  const BarrierParameters parameters = cautious();
   EXPECT_NEAR(barrier_radius(parameters), std::hypot(0.23, std::sqrt(5.0) * 0.3 * 0.02), 1e-15);
   Body body = at(1.0, 1.0);
   body.velocity = Vec2(0.1, -0.2);
@@ -109,7 +93,7 @@ TEST(Barrier, A_pair_whose_rows_hold_keeps_h_at_the_next_sample_and_its_distance
   std::uniform_real_distribution<double> share(-1.0, 1.0);
   int near = 0;
   for (int i = 0; i < 200000; ++i) {
-    BarrierParameters parameters = lag_aware();
+    BarrierParameters parameters = cautious();
     parameters.dt_s = i % 2 == 0 ? 0.02 : 0.2;
     parameters.pair_gain = i % 3 == 0 ? 5.0 : 1e9;
     const PairBarrier barrier = of_drones(parameters);
@@ -137,7 +121,7 @@ TEST(Barrier, A_pair_whose_rows_hold_keeps_h_at_the_next_sample_and_its_distance
 }
 
 TEST(Barrier, However_large_the_gain_a_tick_uses_up_no_more_than_h) {
-  for (const BarrierParameters& given : {paper(), lag_aware()}) {
+  for (const BarrierParameters& given : {paper(), cautious()}) {
     BarrierParameters parameters = given;
     parameters.pair_gain = 1e12;
     parameters.wall_gain = 1e12;
@@ -161,7 +145,7 @@ TEST(Barrier, The_papers_numbers_give_a_sensing_range_of_61_centimetres) {
 
 TEST(Barrier, Just_inside_the_derived_range_a_pair_has_a_row_and_just_outside_none) {
   for (const double speed : {-1.0, 0.0, 0.1, 0.3}) {  // -1: another controlled drone
-    for (const BarrierParameters& parameters : {paper(), lag_aware()}) {
+    for (const BarrierParameters& parameters : {paper(), cautious()}) {
       const Body other = speed < 0.0 ? Body{} : stranger(speed);
       const PairBarrier barrier = separation_barrier(parameters, Body{}, other);
       const double reach = pair_reach(parameters, barrier);
@@ -174,7 +158,7 @@ TEST(Barrier, Just_inside_the_derived_range_a_pair_has_a_row_and_just_outside_no
 }
 
 TEST(Barrier, Beyond_the_derived_range_no_velocities_make_a_row_of_lagging_drones_bind) {
-  const BarrierParameters parameters = lag_aware();
+  const BarrierParameters parameters = cautious();
   const PairBarrier barrier = of_drones(parameters);
   const double reach = pair_reach(parameters, barrier);
   double farthest = 0.0;
@@ -199,7 +183,7 @@ TEST(Barrier, An_uncooperative_body_puts_its_whole_speed_on_this_side) {
 }
 
 TEST(Barrier, Old_states_are_kept_away_from_by_as_much_as_they_may_have_moved) {
-  for (const BarrierParameters& parameters : {paper(), lag_aware()}) {
+  for (const BarrierParameters& parameters : {paper(), cautious()}) {
     Body own;
     Body other;
     own.age_s = 0.1;
@@ -209,7 +193,7 @@ TEST(Barrier, Old_states_are_kept_away_from_by_as_much_as_they_may_have_moved) {
 }
 
 TEST(Barrier, Where_h_is_negative_the_row_asks_to_leave_at_a_linear_rate_of_at_most_half_the_speed) {
-  for (const BarrierParameters& parameters : {paper(), lag_aware()}) {
+  for (const BarrierParameters& parameters : {paper(), cautious()}) {
     const PairBarrier barrier = of_drones(parameters);
     EXPECT_NEAR(row_at(parameters, barrier, barrier.radius_m - 0.01)->offset, 0.05, 1e-12);
     EXPECT_NEAR(row_at(parameters, barrier, 0.01)->offset, 0.15, 1e-15);
@@ -222,7 +206,7 @@ TEST(Barrier, Where_h_is_negative_the_row_asks_to_leave_at_a_linear_rate_of_at_m
 }
 
 TEST(Barrier, Rows_are_continuous_where_h_changes_its_sign) {
-  for (const BarrierParameters& parameters : {paper(), lag_aware()}) {
+  for (const BarrierParameters& parameters : {paper(), cautious()}) {
     const PairBarrier barrier = separation_barrier(parameters, Body{}, stranger(0.1));
     const double inside = row_at(parameters, barrier, barrier.radius_m - 1e-8)->offset;
     const double outside = row_at(parameters, barrier, barrier.radius_m + 1e-8)->offset;
@@ -232,7 +216,7 @@ TEST(Barrier, Rows_are_continuous_where_h_changes_its_sign) {
 }
 
 TEST(Barrier, Coincident_drones_are_sent_opposite_ways) {
-  const BarrierParameters parameters = lag_aware();
+  const BarrierParameters parameters = cautious();
   const PairBarrier barrier = of_drones(parameters);
   for (int j = 1; j < 20; ++j) {
     const auto row = pair_row(parameters, barrier, Vec2::Zero(), Vec2::Zero(), 0, j, Priority::kSeparation);
@@ -245,7 +229,7 @@ TEST(Barrier, Coincident_drones_are_sent_opposite_ways) {
 }
 
 TEST(Barrier, A_contact_row_asks_for_no_more_than_the_separation_row_of_the_same_pair) {
-  for (const BarrierParameters& parameters : {paper(), lag_aware()}) {
+  for (const BarrierParameters& parameters : {paper(), cautious()}) {
     for (const double speed : {-1.0, 0.0, 0.2, 0.5}) {
       const Body other = speed < 0.0 ? Body{} : stranger(speed);
       const PairBarrier separation = separation_barrier(parameters, Body{}, other);
@@ -262,7 +246,7 @@ TEST(Barrier, A_contact_row_asks_for_no_more_than_the_separation_row_of_the_same
 }
 
 TEST(Barrier, Outside_the_field_the_wall_points_back_inside) {
-  for (const BarrierParameters& parameters : {paper(), lag_aware()}) {
+  for (const BarrierParameters& parameters : {paper(), cautious()}) {
     const auto row =
         wall_row(parameters, {3.0, 2.0}, Vec2(3.5, 1.0), 1, wall_reserve(parameters, Body{}), Priority::kWall);
     ASSERT_TRUE(row);
@@ -312,7 +296,7 @@ TEST(Barrier, The_way_out_of_a_polygon_leads_through_its_nearest_edge) {
     const Vec2 p(coordinate(random), coordinate(random));
     if (!encloses(outline, p)) continue;
     ++inside;
-    const WayOut way = way_out(lag_aware(), outline, p);
+    const WayOut way = way_out(cautious(), outline, p);
     EXPECT_NEAR(way.distance_m, -field::signed_distance(arrow(0.0, 0.0), p), 1e-12);
     EXPECT_GT(way.row.offset, 0.0);
     EXPECT_FALSE(encloses(outline, p + (way.distance_m + 1e-6) * way.row.normal));

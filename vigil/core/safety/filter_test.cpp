@@ -5,27 +5,13 @@
 
 #include <gtest/gtest.h>
 
+#include "vigil/core/safety/parameters_for_tests.hpp"
 #include "vigil/testing/allocation_guard.hpp"
 
 namespace vigil::safety {
 namespace {
 
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
-
-BarrierParameters parameters_of(BarrierKind kind) {
-  BarrierParameters parameters;
-  parameters.kind = kind;
-  parameters.separation_m = 0.2;
-  parameters.contact_distance_m = 0.1;
-  parameters.wall_distance_m = 0.17;
-  parameters.no_fly_buffer_m = 0.1;
-  parameters.u_max_m_s = 0.3;
-  parameters.dt_s = 0.02;
-  parameters.pair_gain = kind == BarrierKind::kPaper ? 10.0 : 5.0;
-  parameters.wall_gain = parameters.pair_gain;
-  parameters.lag_s = 0.3;
-  return parameters;
-}
 
 class FilterTest : public ::testing::TestWithParam<BarrierKind> {
  protected:
@@ -37,7 +23,7 @@ class FilterTest : public ::testing::TestWithParam<BarrierKind> {
   }
   void add(double x, double y) { bodies_.emplace_back().position = Vec2(x, y); }
 
-  Filter filter_{parameters_of(GetParam()), {3.0, 3.0}, 400};
+  Filter filter_{GetParam() == BarrierKind::kPaper ? paper() : lag_aware(), {3.0, 3.0}, 400};
   std::vector<Body> bodies_;
   std::vector<field::Segment> no_fly_;
   std::vector<Vec2> u_;
