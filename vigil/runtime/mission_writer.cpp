@@ -4,10 +4,8 @@
 #include <array>
 #include <utility>
 
-#include <fmt/format.h>
-
-#include "vigil/runtime/mission_description.hpp"
 #include "vigil/runtime/yaml_scalar.hpp"
+#include "vigil/runtime/yaml_values.hpp"
 
 namespace vigil::runtime {
 namespace {
@@ -26,29 +24,12 @@ bool is_plain_word(std::string_view text) {
          std::ranges::find(kSpecial, text) == kSpecial.end() && scalar_type(scalar) == ScalarType::kText;
 }
 
-/// The shortest decimal that reads back as the same number.
-std::string in_yaml(const Vec2& point) { return fmt::format("[{}, {}]", point.x(), point.y()); }
-
-class Writer final : public DescriptionVisitor {
+class Writer final : public YamlValues {
  public:
   [[nodiscard]] std::string take() { return std::move(yaml_); }
 
-  void number(const Key& key, const Range& /*range*/, double& value) override { line(key, fmt::format("{}", value)); }
-  void number(const Key& key, const Range& /*range*/, std::optional<double>& value) override {
-    if (value) line(key, fmt::format("{}", *value));
-  }
-  void truth(const Key& key, bool& value) override { line(key, value ? "true" : "false"); }
-  void text(const Key& key, TextRule /*rule*/, std::string& value) override { line(key, text_in_yaml(value)); }
-  void point(const Key& key, const Range& /*range*/, Vec2& value) override { line(key, in_yaml(value)); }
-
-  void points(const Key& key, const Range& /*range*/, const Count& /*count*/, std::vector<Vec2>& value) override {
-    std::string list;
-    for (const Vec2& point : value) list += (list.empty() ? "" : ", ") + in_yaml(point);
-    line(key, "[" + list + "]");
-  }
-
   void section(const Key& key, const Describe& describe) override {
-    line(key, "");
+    write(key, "");
     const std::size_t end_of_line = yaml_.size();
     indent_ += 2;
     describe(*this);
@@ -56,16 +37,12 @@ class Writer final : public DescriptionVisitor {
     if (yaml_.size() == end_of_line) yaml_.insert(end_of_line - 1, " {}");
   }
 
-  void optional_section(const Key& key, const OptionalSection& part) override {
-    if (part.is_present) section(key, part.describe);
-  }
-
   void list(const Key& key, const Count& count, const ListOfSections& sections) override {
     if (sections.size == 0) {
-      if (count.low == 0) line(key, "[]");
+      if (count.low == 0) write(key, "[]");
       return;
     }
-    line(key, "");
+    write(key, "");
     indent_ += 4;
     for (std::size_t i = 0; i < sections.size; ++i) {
       begins_entry_ = true;
@@ -74,29 +51,15 @@ class Writer final : public DescriptionVisitor {
     indent_ -= 4;
   }
 
-  void variants(const Key& key, std::span<const Choice> choices, std::size_t& chosen, const Describe& rest) override {
-    visit_choice(key, choices, chosen);
-    rest(*this);
-  }
-
-  void exactly_one_of(std::string_view /*first*/, std::string_view /*second*/) override {}
-
  protected:
-  void visit_whole_number(const Key& key, const WholeRange& /*range*/, std::int64_t& value) override {
-    line(key, fmt::format("{}", value));
-  }
-  void visit_choice(const Key& key, std::span<const Choice> choices, std::size_t& chosen) override {
-    line(key, choices[chosen].name);
-  }
-
- private:
-  void line(const Key& key, std::string_view value) {
+  void write(const Key& key, std::string_view value) override {
     const bool is_first = std::exchange(begins_entry_, false);
     yaml_.append(is_first ? indent_ - 2 : indent_, ' ').append(is_first ? "- " : "").append(key.name).append(":");
     if (!value.empty()) yaml_.append(" ").append(value);
     yaml_ += '\n';
   }
 
+ private:
   std::string yaml_;
   std::size_t indent_ = 0;
   bool begins_entry_ = false;
