@@ -6,7 +6,7 @@
 
 #include <gtest/gtest.h>
 
-#include "vigil/apps/fleet_choice.hpp"
+#include "vigil/apps/flight_for_tests.hpp"
 #include "vigil/core/field/density.hpp"
 #include "vigil/runtime/mission_file.hpp"
 #include "vigil/runtime/mission_setup.hpp"
@@ -17,15 +17,6 @@ namespace {
 
 runtime::Mission mission_of(const std::string& name, const std::vector<runtime::Override>& overrides) {
   return runtime::load_mission(std::string(VIGIL_MISSIONS_DIR "/") + name, overrides);
-}
-
-std::chrono::nanoseconds no_clock() { return {}; }
-
-runtime::FlightSummary fly(const runtime::Mission& mission) {
-  const auto fleet = simulated_fleet(mission);
-  runtime::VirtualFlight flight(mission, *fleet, nullptr, no_clock);
-  while (!flight.is_over()) flight.step();
-  return flight.summary();
 }
 
 void expect_safe(const runtime::FlightSummary& summary) {

@@ -7,24 +7,14 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-#include "vigil/apps/fleet_choice.hpp"
+#include "vigil/apps/flight_for_tests.hpp"
 #include "vigil/runtime/mission_file.hpp"
-#include "vigil/runtime/virtual_flight.hpp"
 
 namespace vigil::apps {
 namespace {
 
 runtime::Mission paper(const std::vector<runtime::Override>& overrides = {}) {
   return runtime::load_mission(VIGIL_MISSIONS_DIR "/paper.yaml", overrides);
-}
-
-std::chrono::nanoseconds no_clock() { return {}; }
-
-runtime::FlightSummary fly(const runtime::Mission& mission) {
-  const auto fleet = simulated_fleet(mission);
-  runtime::VirtualFlight flight(mission, *fleet, nullptr, no_clock);
-  while (!flight.is_over()) flight.step();
-  return flight.summary();
 }
 
 double percent_at(const runtime::FlightSummary& summary, double time_s) {

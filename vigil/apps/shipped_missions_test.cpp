@@ -5,9 +5,8 @@
 
 #include <gtest/gtest.h>
 
-#include "vigil/apps/fleet_choice.hpp"
+#include "vigil/apps/flight_for_tests.hpp"
 #include "vigil/runtime/mission_file.hpp"
-#include "vigil/runtime/virtual_flight.hpp"
 
 namespace vigil::apps {
 namespace {
@@ -17,11 +16,7 @@ constexpr int kSeedsOfAVehicle = 5;
 
 runtime::FlightSummary fly(const std::string& name, std::vector<runtime::Override> overrides, int seed) {
   overrides.push_back({"simulation.seed", std::to_string(seed)});
-  const runtime::Mission mission = runtime::load_mission(VIGIL_MISSIONS_DIR "/" + name + ".yaml", overrides);
-  const auto fleet = simulated_fleet(mission);
-  runtime::VirtualFlight flight(mission, *fleet, nullptr, [] { return std::chrono::nanoseconds{}; });
-  while (!flight.is_over()) flight.step();
-  return flight.summary();
+  return apps::fly(runtime::load_mission(VIGIL_MISSIONS_DIR "/" + name + ".yaml", overrides));
 }
 
 void expect_safe(const std::string& name, const std::vector<runtime::Override>& overrides = {}) {
