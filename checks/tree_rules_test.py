@@ -25,7 +25,8 @@ class TreeRules(unittest.TestCase):
             self.assertEqual(len(self.complaints("a.cpp", f"// {word} later\n")), 1, word)
 
     def test_a_path_of_one_machine_is_refused_and_a_web_address_is_not(self):
-        for line in ('open("/work/there/a")', "cd /root/b", "/home/me/c"):
+        for root in ("work", "root", "home"):
+            line = f'open("/{root}/there/a")'
             self.assertEqual(len(self.complaints("a.py", line)), 1, line)
         self.assertEqual(self.complaints("a.md", "https://example.org/home/page\n"), [])
 

@@ -13,6 +13,7 @@ namespace {
 using namespace std::chrono_literals;
 
 constexpr std::size_t kMostNotes = 10'000;
+/// The recorder looks for ticks instead of being woken: waking a thread may cost the control thread a system call.
 constexpr auto kLookEvery = 10ms;
 
 std::size_t slot_count(std::size_t drones) {
