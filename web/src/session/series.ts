@@ -1,5 +1,5 @@
 import type { Snapshot } from '../link/frames';
-import { speedOf, vectorOf } from '../model/drones';
+import { isAirborne, speedOf, vectorOf } from '../model/drones';
 import { Ring } from '../model/ring';
 
 /** What the plots show over mission time. Pairs and control inputs only for swarms small enough to read them. */
@@ -10,7 +10,7 @@ const kSpacingS = 0.1;
 export class Series {
   /** metric (percent), worst age (s), least distance of two drones in the air (m), active drones, fastest command (m/s). */
   readonly swarm = new Ring(kSamples, 5);
-  /** Distances of the pairs 1-2, 1-3, ..., 2-3, ...: m. */
+  /** Distances of the pairs 1-2, 1-3, ..., 2-3, ...: m; NaN unless both are in the air, where alone R_s holds. */
   pairs = new Ring(kSamples, 0);
   /** |u| of each drone, m/s. */
   inputs = new Ring(kSamples, 0);
@@ -34,15 +34,17 @@ export class Series {
       time,
       Array.from({ length: this.drones }, (_, i) => speedOf(snapshot, i, 'command')),
     );
-    this.pairs.push(time, this.pairDistances(snapshot.position));
+    this.pairs.push(time, this.pairDistances(snapshot));
   }
 
-  private pairDistances(p: Float32Array): number[] {
-    const distances: number[] = [];
-    for (let i = 0; i < this.drones; i++)
-      for (let j = i + 1; j < this.drones; j++)
-        distances.push(Math.hypot(p[2 * i]! - p[2 * j]!, p[2 * i + 1]! - p[2 * j + 1]!));
-    return distances;
+  private pairDistances(snapshot: Snapshot): number[] {
+    const p = snapshot.position;
+    const between = (i: number, j: number) =>
+      isAirborne(snapshot, i) && isAirborne(snapshot, j)
+        ? Math.hypot(p[2 * i]! - p[2 * j]!, p[2 * i + 1]! - p[2 * j + 1]!)
+        : NaN;
+    const drones = Array.from({ length: this.drones }, (_, i) => i);
+    return drones.flatMap((i) => drones.slice(i + 1).map((j) => between(i, j)));
   }
 
   /** Names of the pairs, in their order. */
