@@ -172,16 +172,18 @@ class Console(unittest.TestCase):
             pass
         self.assertLess(self.program.memory_kib() - before, 30_000)
 
-    def test_a_thousand_connections_are_bounded(self):
+    def test_a_thousand_connections_are_bounded_and_lock_nobody_out(self):
+        operator = self.client()
         idle = []
         try:
             for _ in range(1000):
                 idle.append(socket.create_connection(("127.0.0.1", self.program.port), PATIENCE_S))
         except OSError:
             pass
+        self.assertEqual(operator.ask(type="ping", id=1)["type"], "pong")
+        self.assertEqual(self.client().ask(type="ping", id=1)["type"], "pong")
         for one in idle:
             one.close()
-        self.assertEqual(self.client().ask(type="ping", id=1)["type"], "pong")
         self.assertLess(self.program.memory_kib(), 300_000)
 
 

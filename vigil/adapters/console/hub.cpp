@@ -56,6 +56,11 @@ void Hub::disconnect(ClientId client) {
   if (was_seen) tell_presence();
 }
 
+bool Hub::knows(ClientId client) const {
+  const auto found = clients_.find(client);
+  return found != clients_.end() && found->second.has_said_hello;
+}
+
 void Hub::part_with(ClientId id, std::string_view code, std::string_view reason) {
   const auto found = clients_.find(id);
   if (found == clients_.end()) return;

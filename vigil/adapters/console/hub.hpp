@@ -79,6 +79,8 @@ class Hub {
   [[nodiscard]] std::optional<Role> role_for(std::string_view token) const;
   [[nodiscard]] bool wants_login() const { return setup_.tokens.has_value(); }
   [[nodiscard]] const std::string& program() const { return setup_.program; }
+  /// Whether the client has said who it is, and what it said was good enough.
+  [[nodiscard]] bool knows(ClientId client) const;
   [[nodiscard]] std::size_t clients() const { return clients_.size(); }
 
   // For REST: the newest of everything; null before there is any.

@@ -20,6 +20,7 @@
 #include "vigil/adapters/console/hub.hpp"
 #include "vigil/adapters/console/outbound.hpp"
 #include "vigil/adapters/console/rest.hpp"
+#include "vigil/adapters/console/seats.hpp"
 
 namespace vigil::console {
 namespace {
@@ -48,21 +49,7 @@ struct Host {
   Hub& hub;
   Rest& rest;
   const Gate& gate;
-  std::size_t& connections;
-};
-
-/// Counts a connection for as long as it lives.
-class Seat {
- public:
-  explicit Seat(std::size_t& taken) : taken_(&taken) { ++*taken_; }
-  Seat(Seat&& other) noexcept : taken_(std::exchange(other.taken_, nullptr)) {}
-  Seat& operator=(Seat&&) = delete;
-  ~Seat() {
-    if (taken_ != nullptr) --*taken_;
-  }
-
- private:
-  std::size_t* taken_;
+  Seats& seats;
 };
 
 std::string header(const Request& request, http::field field) {
@@ -95,9 +82,10 @@ HttpAnswer upgrade_refusal(int status, std::string text) {
 
 /// A WebSocket of one client. The sockets' thread only.
 template <typename Stream>
-class Talk final : public ClientLine, public std::enable_shared_from_this<Talk<Stream>> {
+class Talk final : public ClientLine, public Guest, public std::enable_shared_from_this<Talk<Stream>> {
  public:
-  Talk(Stream stream, Host& host, Seat seat) : socket_(std::move(stream)), host_(host), seat_(std::move(seat)) {}
+  Talk(Stream stream, Host& host, std::string origin)
+      : socket_(std::move(stream)), host_(host), origin_(std::move(origin)) {}
 
   void begin(const Request& request) {
     websocket::stream_base::timeout timeout{};
@@ -133,6 +121,10 @@ class Talk final : public ClientLine, public std::enable_shared_from_this<Talk<S
     is_closing_ = true;
     send_next();
   }
+
+  [[nodiscard]] const std::string& origin() const override { return origin_; }
+  [[nodiscard]] bool is_stranger() const override { return !host_.hub.knows(client_); }
+  void give_place() override { break_off(); }
 
  private:
   void join() {
@@ -184,7 +176,7 @@ class Talk final : public ClientLine, public std::enable_shared_from_this<Talk<S
     socket_.async_close(websocket::close_code::normal, [self = this->shared_from_this()](Error) {});
   }
 
-  /// It does not read: no polite word would arrive.
+  /// No polite word: none would arrive, or there is no time for it.
   void break_off() {
     is_broken_ = true;
     beast::get_lowest_layer(socket_).close();
@@ -194,7 +186,7 @@ class Talk final : public ClientLine, public std::enable_shared_from_this<Talk<S
 
   websocket::stream<Stream> socket_;
   Host& host_;
-  Seat seat_;
+  std::string origin_;
   beast::flat_buffer received_;
   Outbound outbound_;
   Hub::ClientId client_ = 0;
@@ -205,9 +197,10 @@ class Talk final : public ClientLine, public std::enable_shared_from_this<Talk<S
 
 /// A connection that speaks HTTP, until it ends or becomes a WebSocket. The sockets' thread only.
 template <typename Stream>
-class Visit : public std::enable_shared_from_this<Visit<Stream>> {
+class Visit final : public Guest, public std::enable_shared_from_this<Visit<Stream>> {
  public:
-  Visit(Stream stream, Host& host, Seat seat) : stream_(std::move(stream)), host_(host), seat_(std::move(seat)) {}
+  Visit(Stream stream, Host& host, std::string origin)
+      : stream_(std::move(stream)), host_(host), origin_(std::move(origin)) {}
 
   void begin() {
     if constexpr (std::is_same_v<Stream, TlsStream>) {
@@ -219,6 +212,10 @@ class Visit : public std::enable_shared_from_this<Visit<Stream>> {
       read_next();
     }
   }
+
+  [[nodiscard]] const std::string& origin() const override { return origin_; }
+  [[nodiscard]] bool is_stranger() const override { return true; }
+  void give_place() override { beast::get_lowest_layer(stream_).close(); }
 
  private:
   void read_next() {
@@ -260,7 +257,9 @@ class Visit : public std::enable_shared_from_this<Visit<Stream>> {
     if (request_.target() != "/live") return send(upgrade_refusal(404, "the WebSocket is at /live"), false);
     if (!offers_protocol(request_))
       return send(upgrade_refusal(400, fmt::format("this server speaks {}", kProtocol)), false);
-    std::make_shared<Talk<Stream>>(std::move(stream_), host_, std::move(seat_))->begin(request_);
+    const auto talk = std::make_shared<Talk<Stream>>(std::move(stream_), host_, origin_);
+    host_.seats.seat(talk);
+    talk->begin(request_);
   }
 
   void send(const HttpAnswer& answer, bool goes_on) {
@@ -280,7 +279,7 @@ class Visit : public std::enable_shared_from_this<Visit<Stream>> {
 
   Stream stream_;
   Host& host_;
-  Seat seat_;
+  std::string origin_;
   beast::flat_buffer buffer_{kMostMessageBytes + kMostHeaderBytes};
   std::optional<http::request_parser<http::string_body>> parser_;
   Request request_;
@@ -373,7 +372,7 @@ class Server::Sockets {
   void accept_next() {
     acceptor_.async_accept([this](Error error, Tcp::socket socket) {
       if (!acceptor_.is_open()) return;
-      if (!error && connections_ < kMostConnections) welcome(std::move(socket));
+      if (!error && seats_.make_room()) welcome(std::move(socket));
       if (error) return wait_to_accept();
       accept_next();
     });
@@ -391,11 +390,18 @@ class Server::Sockets {
     Error ignored;
     socket.set_option(Tcp::no_delay(true), ignored);
     socket.set_option(net::socket_base::send_buffer_size(kSendBufferBytes), ignored);
-    Seat seat(connections_);
+    const Tcp::endpoint from = socket.remote_endpoint(ignored);
+    const std::string origin = from.address().to_string();
     if (tls_)
-      std::make_shared<Visit<TlsStream>>(TlsStream(std::move(socket), *tls_), host_, std::move(seat))->begin();
+      receive(std::make_shared<Visit<TlsStream>>(TlsStream(std::move(socket), *tls_), host_, origin));
     else
-      std::make_shared<Visit<PlainStream>>(PlainStream(std::move(socket)), host_, std::move(seat))->begin();
+      receive(std::make_shared<Visit<PlainStream>>(PlainStream(std::move(socket)), host_, origin));
+  }
+
+  template <typename Stream>
+  void receive(const std::shared_ptr<Visit<Stream>>& visit) {
+    seats_.seat(visit);
+    visit->begin();
   }
 
   void tell_hub(DeskNews news) {
@@ -431,7 +437,7 @@ class Server::Sockets {
   Page page_;
   Gate gate_;
   std::optional<net::ssl::context> tls_;
-  std::size_t connections_ = 0;  // outlives the connections, which the context keeps
+  Seats seats_{kMostConnections};  // outlives the connections, which the context keeps
   net::io_context context_{1};
   Tcp::acceptor acceptor_{context_};
   net::steady_timer accept_timer_{context_};
@@ -439,7 +445,7 @@ class Server::Sockets {
   net::steady_timer over_timer_{context_};
   Hub hub_;
   Rest rest_;
-  Host host_{hub_, rest_, gate_, connections_};
+  Host host_{hub_, rest_, gate_, seats_};
   Desk desk_;
   std::optional<DeskThread> desk_thread_;
   std::string address_;

@@ -29,7 +29,7 @@ struct ServerOptions {
 /// thread of the flight it has two: the sockets' (the one that calls run()) and the desk's.
 class Server {
  public:
-  /// At most so many connections at a time; more are closed at once.
+  /// At most so many connections at a time; see Seats for who stays.
   static constexpr std::size_t kMostConnections = 256;
 
   /// Listens at once. store: null where nothing is kept. Throws SetupError.
