@@ -14,6 +14,8 @@ def complaints(value, schema, document, place="it"):
         schema = target
     if value is None and schema.get("nullable"):
         return
+    for one in schema.get("allOf", ()):
+        yield from complaints(value, one, document, place)
     if "oneOf" in schema:
         fitting = [one for one in schema["oneOf"] if not list(complaints(value, one, document, place))]
         if len(fitting) != 1:

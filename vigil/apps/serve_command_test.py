@@ -94,6 +94,29 @@ class Console(unittest.TestCase):
         self.assertEqual(struct.unpack_from("<d", frame, 40)[0], 77)
         self.assertEqual(self.client().wait_for_type("targets")["revision"], revision)
 
+    def test_a_look_ahead_answers_with_what_would_be_and_changes_nothing(self):
+        ana = self.client()
+        revision = ana.wait_for_type("targets")["revision"]
+        ana.snapshot()
+        edits = [{"op": "add_point", "kind": "cluster", "name": "new", "point_m": [0.5, 0.5]}]
+        ana.send({"type": "preview", "id": 78, "seconds": 30, "based_on": revision, "edits": edits, "without": ["cf1"]})
+        answer = ana.wait_for(lambda m: m.get("id") == 78)
+        self.assertEqual(answer["type"], "preview")
+        self.assertEqual(len(answer["as_is"]["areas"]) + 1, len(answer["what_if"]["areas"]))
+        self.assertEqual(answer["what_if"]["active"] + 1, answer["as_is"]["active"])
+        self.assertEqual([len(places) for places in answer["ghosts"]["xy_m"]], [62] * 3)
+        self.assertEqual(answer["as_is"]["in_s"][-1], 30)
+        self.assertEqual(self.client().wait_for_type("targets")["revision"], revision)
+
+    def test_a_newer_look_ahead_supersedes_the_same_persons_older_one(self):
+        ana = self.client()
+        ana.snapshot()
+        for request in range(20):
+            ana.send({"type": "preview", "id": request, "seconds": 600})
+        answers = [ana.wait_for(lambda m, n=request: m.get("id") == n) for request in range(20)]
+        self.assertEqual(answers[-1]["type"], "preview")
+        self.assertIn("superseded", [answer.get("code") for answer in answers])
+
     def test_who_edits_what_is_shown(self):
         ana, ben = self.client(name="Ana"), self.client(name="Ben")
         ana.ask(type="editing", id=1, what=[{"kind": "cluster", "name": "east"}])
@@ -229,6 +252,19 @@ class Rest(unittest.TestCase):
         self.assertEqual(self.ask("POST", "/api/commands", {"type": "hold"})[0], 400)
         self.assertEqual(self.ask("POST", "/api/commands", b"{")[0], 400)
         self.assertEqual(self.ask("POST", "/api/commands", {"type": "take_off", "id": 4, "drones": ["cf3"]})[0], 409)
+
+    def test_a_look_ahead_is_as_described_and_nonsense_is_refused(self):
+        ask = lambda body: self.ask("POST", "/api/preview", body)  # noqa: E731
+        self.assertIsNone(ask({})[1]["what_if"])
+        self.assertEqual(ask({"seconds": 12})[1]["as_is"]["in_s"], list(range(13)))
+        self.assertEqual(len(ask({"without": ["cf1", "cf3"]})[1]["what_if"]["areas"]), 3)
+        self.assertEqual(ask({"without": ["x"]})[0], 404)
+        point = {"op": "add_point", "kind": "cluster", "name": "new", "point_m": [0.5, 0.5]}
+        self.assertEqual(ask({"based_on": 99, "edits": [point]})[0], 409)
+        outside = {**point, "point_m": [1e6, 0]}
+        for body in [{"seconds": 0}, {"seconds": 601}, {"edits": []}, {"based_on": 1}, {"id": 1}, {"with": []}, [], b"{"]:
+            self.assertEqual(ask(body)[0], 400, body)
+        self.assertEqual(ask({"based_on": self.ask("GET", "/api/state")[1]["revision"], "edits": [outside]})[0], 400)
 
     def test_the_mission_that_is_saved_is_one(self):
         status, text = self.ask("GET", "/api/mission?format=yaml")

@@ -25,7 +25,8 @@ ControlLoop::ControlLoop(LiveFlight& flight, std::size_t drones)
       inbox_(inbox_size(drones)),
       clock_inbox_(kMostClockCommands),
       outbox_(outbox_size(drones)),
-      frames_(drones) {
+      frames_(drones),
+      states_(flight.state().parameters()) {
   waiting_.reserve(inbox_size(drones));
 }
 
@@ -103,6 +104,7 @@ ControlLoop::Time ControlLoop::turn(Time now) noexcept {
   if (pacer_.is_due(now)) tick(now);
   publish(now);
   outbox_.send();
+  states_.give(flight_.state());
   const Time latest = now + kLongestWait;
   return pacer_.is_paused() ? latest : std::min(latest, pacer_.next_due());
 }

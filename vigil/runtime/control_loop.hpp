@@ -1,6 +1,7 @@
 #pragma once
 
 #include <chrono>
+#include <optional>
 #include <span>
 #include <utility>
 #include <vector>
@@ -8,6 +9,7 @@
 #include "vigil/runtime/hand_over.hpp"
 #include "vigil/runtime/live_flight.hpp"
 #include "vigil/runtime/tick_pacer.hpp"
+#include "vigil/swarm/tick.hpp"
 
 namespace vigil::runtime {
 
@@ -37,6 +39,12 @@ class ControlLoop {
   bool read(ClockState& into, std::size_t& version) const { return clocks_.read(into, version); }
 
   // One thread of the others.
+  /// Asks for the swarm's state as the control thread next leaves it, within milliseconds; see OnRequest.
+  void ask_state() { states_.ask(); }
+  /// The state that was asked for; empty until it is there.
+  [[nodiscard]] std::optional<swarm::SwarmState> take_state() const { return states_.take(); }
+
+  // One thread of the others.
   [[nodiscard]] const std::vector<LiveEvent>& take_events() { return outbox_.take(); }
   [[nodiscard]] std::size_t lost_events() const { return outbox_.lost(); }
 
@@ -60,6 +68,7 @@ class ControlLoop {
   Outbox<LiveEvent> outbox_;
   Latest<LiveFrame> frames_;
   Latest<ClockState> clocks_;
+  OnRequest<swarm::SwarmState> states_;
   std::vector<LiveCommand> waiting_;  ///< for their tick; those before next_ are done
   std::size_t next_ = 0;
   bool has_new_frame_ = false;

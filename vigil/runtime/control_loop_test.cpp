@@ -5,6 +5,7 @@
 #include "vigil/runtime/controller_setup.hpp"
 #include "vigil/runtime/live_world_for_tests.hpp"
 #include "vigil/runtime/mission_setup.hpp"
+#include "vigil/testing/allocation_guard.hpp"
 
 namespace vigil::runtime {
 namespace {
@@ -179,6 +180,24 @@ TEST_F(ControlLoopTest, More_commands_than_a_tick_can_answer_wait_for_the_next) 
   }
   EXPECT_GT(answers().back().tick, answers().front().tick);
   EXPECT_EQ(loop.lost_events(), 0U);
+}
+
+TEST_F(ControlLoopTest, The_state_is_handed_over_as_it_is_without_allocating) {
+  run_until(now + 1s);
+  EXPECT_FALSE(loop.take_state());
+  for (const bool is_ticking : {true, false}) {
+    if (!is_ticking) {
+      EXPECT_TRUE(loop.submit({clock(LiveCommand::Kind::kPause, 0)}));
+    }
+    loop.ask_state();
+    const testing::AllocationGuard guard;
+    now = std::max(loop.turn(now), now + 1us);
+    EXPECT_EQ(guard.allocations(), 0U);
+    const std::optional<swarm::SwarmState> state = loop.take_state();
+    ASSERT_TRUE(state);
+    EXPECT_EQ(state->ticks(), flight.state().ticks());
+    EXPECT_EQ(state->next_motion(swarm::DroneId(1)).position, flight.state().next_motion(swarm::DroneId(1)).position);
+  }
 }
 
 TEST_F(ControlLoopTest, A_flood_is_refused_and_not_queued_without_end) {

@@ -61,11 +61,14 @@ AuditLimits audit_limits(const Mission& mission) {
 }
 
 std::shared_ptr<const swarm::CoverageTarget> coverage_target(const Mission& mission, const ergodic::Basis& basis) {
-  const field::Importance map = importance(mission);
+  return coverage_target(mission, basis, field::grid_shape(basis.field(), importance(mission), basis.max_index()));
+}
+
+std::shared_ptr<const swarm::CoverageTarget> coverage_target(const Mission& mission, const ergodic::Basis& basis,
+                                                             field::GridShape shape) {
   auto target = std::make_shared<swarm::CoverageTarget>();
   target->no_fly = no_fly_edges(mission);
-  const field::GridShape shape = field::grid_shape(basis.field(), map, basis.max_index());
-  if (const auto density = field::rasterise(basis.field(), map, shape)) {
+  if (const auto density = field::rasterise(basis.field(), importance(mission), shape)) {
     target->phi_k = ergodic::target_coefficients(basis, *density);
     target->has_targets = true;
   }

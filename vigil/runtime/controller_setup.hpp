@@ -3,6 +3,7 @@
 #include <memory>
 
 #include "vigil/core/ergodic/basis.hpp"
+#include "vigil/core/field/cell_cover.hpp"
 #include "vigil/runtime/flight_audit.hpp"
 #include "vigil/runtime/mission.hpp"
 #include "vigil/swarm/command.hpp"
@@ -24,5 +25,9 @@ namespace vigil::runtime {
 /// tick.
 [[nodiscard]] std::shared_ptr<const swarm::CoverageTarget> coverage_target(const Mission& mission,
                                                                            const ergodic::Basis& basis);
+/// The same from a density of this shape.
+[[nodiscard]] std::shared_ptr<const swarm::CoverageTarget> coverage_target(const Mission& mission,
+                                                                           const ergodic::Basis& basis,
+                                                                           field::GridShape shape);
 
 }  // namespace vigil::runtime

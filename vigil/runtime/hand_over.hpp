@@ -1,7 +1,9 @@
 #pragma once
 
+#include <atomic>
 #include <cstddef>
 #include <mutex>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -132,6 +134,44 @@ class Latest {
   Value mine_;
   Value shared_;
   std::size_t version_ = 0;
+};
+
+/// A value of the control thread, copied where one other thread asks for it: nothing is copied otherwise.
+template <typename Value>
+class OnRequest {
+ public:
+  /// The value is made of the same arguments as the control thread's: a copy need not have an original's reserves.
+  template <typename... Arguments>
+  explicit OnRequest(const Arguments&... arguments) : value_(arguments...) {}
+
+  /// From now on take() is empty until the control thread gave the value as it will be then. The other thread.
+  void ask() {
+    const std::lock_guard lock(mutex_);
+    is_there_ = false;
+    is_wanted_.store(true, std::memory_order_release);
+  }
+
+  /// Copies the value where somebody waits for it, now or with a later call. The control thread only.
+  void give(const Value& value) noexcept {
+    if (!is_wanted_.load(std::memory_order_acquire)) return;
+    const std::unique_lock lock(mutex_, std::try_to_lock);
+    if (!lock.owns_lock()) return;
+    value_ = value;
+    is_there_ = true;
+    is_wanted_.store(false, std::memory_order_relaxed);
+  }
+
+  /// What was given since ask(). The other thread.
+  [[nodiscard]] std::optional<Value> take() const {
+    const std::lock_guard lock(mutex_);
+    return is_there_ ? std::optional(value_) : std::nullopt;
+  }
+
+ private:
+  mutable std::mutex mutex_;
+  std::atomic<bool> is_wanted_{false};
+  bool is_there_ = false;
+  Value value_;
 };
 
 }  // namespace vigil::runtime

@@ -76,5 +76,24 @@ TEST(HandOverTest, Two_threads_lose_and_mix_nothing) {
   EXPECT_EQ(next_back, kCount);
 }
 
+TEST(OnRequestTest, Nothing_is_copied_for_nobody) {
+  OnRequest<int> on_request(0);
+  on_request.give(1);
+  EXPECT_FALSE(on_request.take());
+}
+
+TEST(OnRequestTest, Who_asks_gets_the_value_as_it_is_then_and_not_later) {
+  OnRequest<int> on_request(0);
+  on_request.ask();
+  EXPECT_FALSE(on_request.take());
+  on_request.give(1);
+  on_request.give(2);
+  EXPECT_EQ(on_request.take(), 1);
+  on_request.ask();
+  EXPECT_FALSE(on_request.take());
+  on_request.give(3);
+  EXPECT_EQ(on_request.take(), 3);
+}
+
 }  // namespace
 }  // namespace vigil::runtime

@@ -32,6 +32,7 @@ class VirtualFlight {
   void step();
 
   [[nodiscard]] const swarm::Snapshot& snapshot() const noexcept { return snapshot_; }
+  [[nodiscard]] const swarm::SwarmState& state() const noexcept { return state_; }
   [[nodiscard]] FlightSummary summary() const;
 
  private:

@@ -123,6 +123,21 @@ bool SwarmState::read_past(const SwarmPast& past) {
   return true;
 }
 
+Motion SwarmState::next_motion(DroneId drone) const noexcept {
+  return flown_.ahead(drone.index(), motions_[drone.index()], parameters_.dt_s, parameters_.barrier.lag_s);
+}
+
+void SwarmState::become_model(double dt_s) {
+  parameters_.dt_s = dt_s;
+  parameters_.barrier.dt_s = dt_s;
+  parameters_.command_delay_s = 0.0;
+  parameters_.observation_delay_s = 0.0;
+  look_ahead_.set_tick(dt_s);
+  goal_seeker_.set_tick(dt_s);
+  filter_ = safety::Filter(parameters_.barrier, parameters_.field, parameters_.drones);
+  flown_ = FlownOrders(parameters_.drones, dt_s, longest_prediction_s(parameters_));
+}
+
 void SwarmState::set_target(const CoverageTarget& target) noexcept {
   if (target.has_targets)
     target_.phi_k = target.phi_k;

@@ -37,6 +37,16 @@ class SwarmState {
   [[nodiscard]] const ergodic::CoverageStatistics& statistics() const { return statistics_; }
   /// How many ticks have been run.
   [[nodiscard]] std::uint64_t ticks() const { return ticks_; }
+  /// What is remembered of every drone.
+  [[nodiscard]] std::span<const DroneMemory> drones() const { return drones_; }
+  /// How a drone will move, as far as its orders tell, when the next tick's orders begin to act on it. Precondition:
+  /// drone.index() < parameters().drones.
+  [[nodiscard]] Motion next_motion(DroneId drone) const noexcept;
+
+  /// Makes a copy into a model of the flight: from now on a tick lasts dt_s, and what it orders acts at once on drones
+  /// that are seen as they are. For looking ahead, from next_motion() on: where delays are made up for, the flight goes
+  /// like that, by so much later. Precondition: dt_s > 0. Allocates.
+  void become_model(double dt_s);
 
   /// Allocates nothing where `out` has been written before.
   void write_past(SwarmPast& out) const;

@@ -11,6 +11,7 @@
 #include "vigil/adapters/console/json_reader.hpp"
 #include "vigil/runtime/mission_error.hpp"
 #include "vigil/runtime/mission_text.hpp"
+#include "vigil/runtime/preview.hpp"
 
 namespace vigil::console {
 namespace {
@@ -20,6 +21,7 @@ using swarm::CommandKind;
 constexpr std::size_t kMostDrones = 100'000;
 constexpr std::size_t kMostIdBytes = 64;
 constexpr std::size_t kMostEditing = 20;
+constexpr std::size_t kMostReasonBytes = 400;
 
 struct WishWord {
   std::string_view word;
@@ -94,6 +96,22 @@ Body draft_in(const JsonReader& reader) {
   return {reader.whole("based_on"), edits_in(reader, "edits")};
 }
 
+Preview preview_in(const JsonReader& reader) {
+  reader.allow_only({"type", "id", "seconds", "based_on", "edits", "without"});
+  Preview preview;
+  if (reader.has("seconds")) preview.seconds = reader.number("seconds");
+  if (!(preview.seconds >= 1.0 && preview.seconds <= runtime::kLongestPreviewS))
+    reader.refuse("seconds", fmt::format("must be in [1, {}]", runtime::kLongestPreviewS));
+  if (reader.has("edits")) {
+    preview.based_on = reader.whole("based_on");
+    preview.edits = edits_in(reader, "edits");
+  } else if (reader.has("based_on")) {
+    reader.refuse("based_on", "is the revision that edits are made to: give edits, or leave it out");
+  }
+  if (reader.has("without")) preview.without = reader.texts("without", kMostDrones, kMostIdBytes);
+  return preview;
+}
+
 LoadMission mission_in(const JsonReader& reader) {
   reader.allow_only({"type", "id", "yaml"});
   return {reader.text("yaml", runtime::kMostMissionBytes)};
@@ -116,6 +134,7 @@ std::optional<MessageBody> body_in(const JsonReader& reader, std::string_view ty
   if (type == "hello") return hello_in(reader);
   if (type == "ping") return nothing_in<Ping>(reader);
   if (type == "preview_density") return draft_in<PreviewDensity>(reader);
+  if (type == "preview") return preview_in(reader);
   if (type == "editing") return editing_in(reader);
   if (type == "edit") return draft_in<Edit>(reader);
   if (type == "undo") return nothing_in<Undo>(reader);
@@ -141,14 +160,7 @@ std::optional<std::uint64_t> id_in(const nlohmann::json& message) {
   }
 }
 
-}  // namespace
-
-std::variant<ClientMessage, MessageRefusal> parse_client_message(std::string_view text) {
-  constexpr std::size_t kMostReasonBytes = 400;
-  if (text.size() > kMostMessageBytes)
-    return MessageRefusal{{}, "too_large", fmt::format("a message has at most {} bytes", kMostMessageBytes)};
-  const nlohmann::json message = nlohmann::json::parse(text, nullptr, false);
-  if (message.is_discarded()) return MessageRefusal{{}, "malformed", "it is not JSON in UTF-8"};
+std::variant<ClientMessage, MessageRefusal> message_in(const nlohmann::json& message) {
   const std::optional<std::uint64_t> id = id_in(message);
   try {
     const JsonReader reader(message, "");
@@ -164,11 +176,31 @@ std::variant<ClientMessage, MessageRefusal> parse_client_message(std::string_vie
   }
 }
 
+}  // namespace
+
+std::variant<ClientMessage, MessageRefusal> parse_client_message(std::string_view text) {
+  if (text.size() > kMostMessageBytes)
+    return MessageRefusal{{}, "too_large", fmt::format("a message has at most {} bytes", kMostMessageBytes)};
+  const nlohmann::json message = nlohmann::json::parse(text, nullptr, false);
+  if (message.is_discarded()) return MessageRefusal{{}, "malformed", "it is not JSON in UTF-8"};
+  return message_in(message);
+}
+
+std::variant<ClientMessage, MessageRefusal> parse_preview(std::string_view text) {
+  nlohmann::json message = nlohmann::json::parse(text, nullptr, false);
+  if (!message.is_object()) return MessageRefusal{{}, "malformed", "it is not a JSON object in UTF-8"};
+  if (message.contains("type") || message.contains("id"))
+    return MessageRefusal{{}, "malformed", "type, id: are no members here; see protocol/openapi.json"};
+  message["type"] = "preview";
+  message["id"] = 0U;
+  return message_in(message);
+}
+
 Role role_for(const MessageBody& body) {
   if (const auto* wish = std::get_if<DroneWish>(&body))
     return wish->kind == CommandKind::kEmergencyStop ? Role::kSafetyPilot : Role::kOperator;
   const bool only_looks = std::holds_alternative<Hello>(body) || std::holds_alternative<Ping>(body) ||
-                          std::holds_alternative<PreviewDensity>(body);
+                          std::holds_alternative<PreviewDensity>(body) || std::holds_alternative<Preview>(body);
   return only_looks ? Role::kViewer : Role::kOperator;
 }
 

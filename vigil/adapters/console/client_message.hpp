@@ -27,6 +27,13 @@ struct PreviewDensity {
   std::uint64_t based_on = 0;
   std::vector<runtime::TargetEdit> edits;
 };
+/// How the swarm would do, with these edits and without these drones.
+struct Preview {
+  double seconds = 60.0;
+  std::optional<std::uint64_t> based_on;  ///< where there are edits
+  std::vector<runtime::TargetEdit> edits;
+  std::vector<std::string> without;  ///< ids
+};
 struct Editing {
   std::vector<runtime::TargetName> what;
 };
@@ -52,8 +59,8 @@ struct LoadMission {
   std::string yaml;
 };
 
-using MessageBody = std::variant<Hello, Ping, PreviewDensity, Editing, DroneWish, Edit, Undo, Redo, StartAfresh,
-                                 SetSpeed, Pause, ResumeClock, LoadMission>;
+using MessageBody = std::variant<Hello, Ping, PreviewDensity, Preview, Editing, DroneWish, Edit, Undo, Redo,
+                                 StartAfresh, SetSpeed, Pause, ResumeClock, LoadMission>;
 
 struct ClientMessage {
   std::optional<std::uint64_t> id;  ///< always there but for Hello
@@ -70,6 +77,9 @@ struct MessageRefusal {
 
 /// Any bytes. Never throws but for want of memory.
 [[nodiscard]] std::variant<ClientMessage, MessageRefusal> parse_client_message(std::string_view text);
+
+/// The same of a `preview` without type and id: the body of POST /api/preview.
+[[nodiscard]] std::variant<ClientMessage, MessageRefusal> parse_preview(std::string_view text);
 
 /// The least role that may send a message.
 [[nodiscard]] Role role_for(const MessageBody& body);

@@ -3,6 +3,7 @@
 #include <utility>
 
 #include "vigil/adapters/console/frames.hpp"
+#include "vigil/adapters/console/preview_job.hpp"
 #include "vigil/adapters/console/server_messages.hpp"
 #include "vigil/core/field/density.hpp"
 #include "vigil/runtime/controller_setup.hpp"
@@ -113,6 +114,23 @@ void Desk::preview(std::uint64_t ticket, const std::atomic<std::uint64_t>& newes
                                .request = request};
   tell_(DeskAnswer{ticket, desk_->revision(),
                    shared(density_of(std::get<runtime::Mission>(draft), kPreviewCells, context))});
+}
+
+void Desk::look_ahead(std::uint64_t ticket, std::uint64_t asker, const Preview& request,
+                      std::vector<std::size_t> without) {
+  PreviewJob job{ticket, flight_, ground_->watch(), desk_->revision(), {}};
+  job.question.seconds = request.seconds;
+  for (const std::size_t drone : without) job.question.without.emplace_back(drone);
+  if (request.based_on) {
+    std::variant<runtime::Mission, runtime::Refusal> draft = desk_->draft(request.edits, *request.based_on);
+    if (const auto* refusal = std::get_if<runtime::Refusal>(&draft))
+      return refuse(ticket, code_of(refusal->code), refusal->reason);
+    job.question.targets = std::get<runtime::Mission>(std::move(draft));
+  }
+  const auto work = [tell = tell_, job = std::move(job)](const std::atomic<bool>& cancelled) {
+    tell(answer_of(job, cancelled));
+  };
+  if (!previews_.submit(asker, work)) refuse(ticket, "busy", "too many previews wait; try again");
 }
 
 void Desk::load_mission(std::uint64_t ticket, const std::string& yaml) {

@@ -11,9 +11,11 @@
 #include <vector>
 
 #include "vigil/adapters/console/client_message.hpp"
+#include "vigil/adapters/console/server_messages.hpp"
 #include "vigil/runtime/ground_picture.hpp"
 #include "vigil/runtime/live_mission.hpp"
 #include "vigil/runtime/mission_desk.hpp"
+#include "vigil/runtime/preview_thread.hpp"
 #include "vigil/runtime/saved_flight.hpp"
 
 namespace vigil::console {
@@ -61,12 +63,17 @@ struct DeskAnswer {
   std::uint64_t revision = 0;
   SharedBytes preview;  ///< the frame; null but for previews
 };
+/// A look ahead is done.
+struct PreviewNews {
+  std::uint64_t ticket = 0;
+  Json answer;  ///< without its id
+};
 /// Something went wrong that people should know of.
 struct DeskTrouble {
   std::string text;
 };
-using DeskNews =
-    std::variant<FlightNews, TargetsNews, GroundNews, DeskRefusal, DeskAcceptance, DeskAnswer, DeskTrouble>;
+using DeskNews = std::variant<FlightNews, TargetsNews, GroundNews, DeskRefusal, DeskAcceptance, DeskAnswer, PreviewNews,
+                              DeskTrouble>;
 
 /// Everything of a live flight that takes its time and must not hold up the control thread or the sockets: editing
 /// targets, drawing densities, keeping the picture of the ground, saving the state. All on one thread, the desk's.
@@ -77,7 +84,7 @@ class Desk {
                                                                          const runtime::SavedFlight* saved)>;
   using Tell = std::function<void(DeskNews)>;
 
-  /// `tell` is called on the desk's thread. store: null where nothing is kept.
+  /// `tell` is called on the desk's thread, and on one of its own for looks ahead. store: null where nothing is kept.
   Desk(MakeFlight make_flight, Tell tell, std::shared_ptr<runtime::FlightStore> store);
 
   /// Flies a mission: tells FlightNews and TargetsNews. Throws what making a flight throws.
@@ -90,6 +97,8 @@ class Desk {
   /// newest: the ticket of the newest preview that the same client asked for; all others are superseded.
   void preview(std::uint64_t ticket, const std::atomic<std::uint64_t>& newest, std::uint64_t request,
                const std::vector<runtime::TargetEdit>& edits, std::uint64_t based_on);
+  /// Lets a thread of its own look ahead; a newer request of the same asker supersedes it. without: drones' indices.
+  void look_ahead(std::uint64_t ticket, std::uint64_t asker, const Preview& request, std::vector<std::size_t> without);
   void load_mission(std::uint64_t ticket, const std::string& yaml);
   /// An event of the mission file wants other targets.
   void play(std::uint32_t epoch, std::size_t event_index);
@@ -122,6 +131,7 @@ class Desk {
   std::deque<std::shared_ptr<const swarm::CoverageTarget>> recent_targets_;
   int looks_ = 0;
   bool save_failed_ = false;
+  runtime::PreviewThread previews_;  ///< last: it ends before what it tells is gone
 };
 
 }  // namespace vigil::console

@@ -206,6 +206,7 @@ void Hub::dispatch(const ClientMessage& message, const Author& author, std::uint
                    ask_desk(ticket, [=](Desk& desk) { desk.edit(ticket, body.edits, body.based_on, by); });
                  },
                  [&](const PreviewDensity& body) { preview(body, author, message.id.value_or(0), ticket); },
+                 [&](const Preview& body) { look_ahead(body, author, ticket); },
                  [&](const Undo&) { ask_desk(ticket, [=](Desk& desk) { desk.undo(ticket, by); }); },
                  [&](const Redo&) { ask_desk(ticket, [=](Desk& desk) { desk.redo(ticket, by); }); },
                  [&](const LoadMission& body) {
@@ -289,6 +290,14 @@ void Hub::preview(const PreviewDensity& body, const Author& author, std::uint64_
   ask_desk(ticket, [=, edits = body.edits, based_on = body.based_on](Desk& desk) {
     desk.preview(ticket, *newest, request, edits, based_on);
   });
+}
+
+void Hub::look_ahead(const Preview& body, const Author& author, std::uint64_t ticket) {
+  DroneWish named;
+  named.drones = body.without;
+  const auto without = drones_of(named, ticket);
+  if (!without) return;
+  ask_desk(ticket, [=, asker = author.client](Desk& desk) { desk.look_ahead(ticket, asker, body, *without); });
 }
 
 void Hub::refuse(std::uint64_t ticket, std::string_view code, std::string reason) {

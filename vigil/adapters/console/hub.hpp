@@ -131,6 +131,7 @@ class Hub {
   void ask_desk(std::uint64_t ticket, std::function<void(Desk&)> task);
   void refuse(std::uint64_t ticket, std::string_view code, std::string reason);
   void preview(const PreviewDensity& body, const Author& author, std::uint64_t request, std::uint64_t ticket);
+  void look_ahead(const Preview& body, const Author& author, std::uint64_t ticket);
   void wait_for_control(Waiting& waiting) const;
   void set_editing(ClientId client, const Editing& editing);
   void tell_presence();
@@ -140,6 +141,7 @@ class Hub {
   void take(const TargetsNews& news);
   void take(const GroundNews& news);
   void take(const DeskAnswer& news);
+  void take(const PreviewNews& news);
   void hear(const runtime::LiveEvent& event);
   void hear_swarm(const runtime::LiveEvent& event);
   void hear_script(const runtime::LiveEvent& event);

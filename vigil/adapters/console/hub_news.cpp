@@ -49,6 +49,7 @@ void Hub::take(DeskNews news) {
   if (const auto* targets = std::get_if<TargetsNews>(&news)) take(*targets);
   if (const auto* ground = std::get_if<GroundNews>(&news)) take(*ground);
   if (const auto* answer = std::get_if<DeskAnswer>(&news)) take(*answer);
+  if (const auto* outlook = std::get_if<PreviewNews>(&news)) take(*outlook);
   if (auto* refusal = std::get_if<DeskRefusal>(&news))
     refuse(refusal->ticket, refusal->code, std::move(refusal->reason));
   if (const auto* acceptance = std::get_if<DeskAcceptance>(&news)) {
@@ -146,6 +147,16 @@ void Hub::take(const DeskAnswer& news) {
   const auto client = clients_.find(waiting.preview_for);
   if (news.preview && client != clients_.end()) client->second.line->show(ClientLine::Latest::kPreview, news.preview);
   waiting.reply(ack_json(waiting.id, {frame_ ? frame_->snapshot.tick : 0, false, news.revision, {}}));
+}
+
+void Hub::take(const PreviewNews& news) {
+  const auto found = waiting_.find(news.ticket);
+  if (found == waiting_.end()) return;
+  const Waiting waiting = std::move(found->second);
+  waiting_.erase(found);
+  Json answer = news.answer;
+  answer["id"] = waiting.id;
+  waiting.reply(answer);
 }
 
 void Hub::log(ConsoleEvent event) {

@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "vigil/adapters/console/frames.hpp"
+#include "vigil/adapters/console/preview_json.hpp"
 #include "vigil/adapters/console/server_messages.hpp"
 #include "vigil/runtime/mission_file.hpp"
 
@@ -218,6 +219,9 @@ const std::vector<std::pair<std::string, std::string>>& client_texts() {
        R"({"type":"edit","id":12,"based_on":7,"edits":[{"op":"add","kind":"cluster","entry":{"name":"n","points_m":[[11,21]]}},{"op":"replace","kind":"area","name":"west","entry":{"name":"west","outline_m":[[10.5,20.5],[11,20.5],[11,21]],"weight":2,"soft_edge_m":0.5,"revisit_s":null}},{"op":"remove","kind":"no_fly","name":"mast"},{"op":"rename","kind":"cluster","name":"n","to":"north"},{"op":"add_point","kind":"cluster","name":"north","point_m":[11,21]},{"op":"add_point","kind":"cluster","name":"north","point_m":[11,21],"index":0},{"op":"move_point","kind":"cluster","name":"north","index":0,"point_m":[12,21]},{"op":"remove_point","kind":"cluster","name":"north","index":1},{"op":"set_weight","kind":"cluster","name":"north","weight":3},{"op":"set_revisit","kind":"cluster","name":"north","revisit_s":60},{"op":"set_soft_edge","kind":"area","name":"west","soft_edge_m":0.25},{"op":"set_uniform_floor","uniform_floor":0.125}]})"},
       {"preview",
        R"({"type":"preview_density","id":13,"based_on":7,"edits":[{"op":"set_weight","kind":"cluster","name":"east","weight":3}]})"},
+      {"look ahead", R"({"type":"preview","id":14})"},
+      {"look ahead with all",
+       R"({"type":"preview","id":15,"seconds":30,"based_on":7,"edits":[{"op":"set_weight","kind":"cluster","name":"east","weight":3}],"without":["a"]})"},
       {"not JSON", R"({"type":"ping","id":)"},
       {"not an object", R"([1,2])"},
       {"no type", R"({"id":1})"},
@@ -235,6 +239,8 @@ const std::vector<std::pair<std::string, std::string>>& client_texts() {
       {"unknown kind", R"({"type":"edit","id":1,"based_on":7,"edits":[{"op":"remove","kind":"tree","name":"x"}]})"},
       {"a point of three",
        R"({"type":"edit","id":1,"based_on":7,"edits":[{"op":"add_point","kind":"cluster","name":"x","point_m":[1,2,3]}]})"},
+      {"look too far ahead", R"({"type":"preview","id":16,"seconds":601})"},
+      {"look ahead by nothing", R"({"type":"preview","id":17,"based_on":7})"},
       {"a number beyond all", R"({"type":"set_speed","id":1,"factor":1e999})"},
   };
   return kTexts;
@@ -256,6 +262,30 @@ Json client_messages() {
 Json mission_vector(const runtime::Mission& mission) {
   Json message = mission_message(mission, 3);
   for (const char* section : {"control", "safety", "health", "sensor", "simulation"}) message["mission"].erase(section);
+  return message;
+}
+
+/// Two drones, of which the second was never seen.
+Json preview_vector() {
+  runtime::Outlook as_is;
+  as_is.seconds = 1.0;
+  as_is.tick_s = 0.125;
+  as_is.samples = {{0.0, 0.5, 100.0, 3.25, 1}, {1.0, 0.25, 50.0, 4.25, 1}};
+  as_is.areas = {{.what = {runtime::TargetKind::kCluster, "east"}, .asked = 0.5, .achieved = 0.25},
+                 {.what = {runtime::TargetKind::kArea, "west"}, .asked = 0.25, .achieved = 0.5}};
+  as_is.areas[0].deadline_s = 30.0;
+  as_is.areas[1].covered_in_s = 0.0;
+  as_is.areas[1].seen_in_s = 0.75;
+  as_is.areas[1].worst_age_s = 4.25;
+  as_is.ghost_spacing_s = 1.0;
+  as_is.ghost_points = 2;
+  const Vec2 nowhere = Vec2::Constant(std::numeric_limits<double>::quiet_NaN());
+  as_is.ghosts = {{0.5, 1.5}, {0.625, 1.5}, nowhere, nowhere};
+  runtime::Outlook what_if = as_is;
+  what_if.least_pair_m = 0.75;
+  what_if.samples.back().active = 0;
+  Json message = preview_json({1151, 23.02, as_is, what_if}, {3, 7, {}});
+  message["id"] = 14;
   return message;
 }
 
@@ -296,6 +326,7 @@ Json server_messages() {
   add("refused", refused_json({10, "stale", "Ben changed it"}));
   add("refused, no id", refused_json({{}, "malformed", "it is not JSON in UTF-8"}));
   add("pong", pong_json(11, 1024.5));
+  add("preview", preview_vector());
   add("bye", bye_json("ending", "the program ends"));
   return list;
 }

@@ -109,8 +109,9 @@ void Rest::answer_api(const HttpRequest& request, const std::string& path, const
     return reply(std::move(answer));
   }
   if (path == "/api/areas" && is_post) return import_areas(request, *role, reply);
-  if (path == "/api/commands" && is_post) return answer_command(request, *role, reply);
-  for (const char* known : {"/api/state", "/api/mission", "/api/areas", "/api/commands"})
+  if (path == "/api/commands" && is_post) return answer_command(parse_client_message(request.body), *role, reply);
+  if (path == "/api/preview" && is_post) return answer_command(parse_preview(request.body), *role, reply);
+  for (const char* known : {"/api/state", "/api/mission", "/api/areas", "/api/commands", "/api/preview"})
     if (path == known) return reply(refusal(405, "wrong_method", "see protocol/openapi.json"));
   reply(not_found());
 }
@@ -123,8 +124,7 @@ HttpAnswer Rest::mission(const HttpRequest& request, const std::string& query) c
   return {200, "application/yaml", shared(runtime::mission_yaml(*mission)), {{"Cache-Control", "no-store"}}};
 }
 
-void Rest::answer_command(const HttpRequest& request, Role role, const Reply& reply) {
-  std::variant<ClientMessage, MessageRefusal> parsed = parse_client_message(request.body);
+void Rest::answer_command(const std::variant<ClientMessage, MessageRefusal>& parsed, Role role, const Reply& reply) {
   if (const auto* refused = std::get_if<MessageRefusal>(&parsed)) {
     const Json json = refused_json(*refused);
     return reply(json_answer(status_of(json), json));

@@ -4,6 +4,7 @@
 #include <memory>
 #include <string>
 #include <utility>
+#include <variant>
 #include <vector>
 
 #include "vigil/adapters/console/access.hpp"
@@ -46,7 +47,7 @@ class Rest {
 
  private:
   void answer_api(const HttpRequest& request, const std::string& path, const std::string& query, const Reply& reply);
-  void answer_command(const HttpRequest& request, Role role, const Reply& reply);
+  void answer_command(const std::variant<ClientMessage, MessageRefusal>& parsed, Role role, const Reply& reply);
   void import_areas(const HttpRequest& request, Role role, const Reply& reply);
   [[nodiscard]] HttpAnswer mission(const HttpRequest& request, const std::string& query) const;
   [[nodiscard]] HttpAnswer page_file(const HttpRequest& request, const std::string& path) const;

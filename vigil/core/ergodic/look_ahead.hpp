@@ -55,6 +55,9 @@ class LookAhead {
   void steer(Kernel& kernel, const CoverageStatistics& statistics, const Coefficients& phi_k,
              const AllowedRegion& region, std::span<const Departure> departures, std::span<Vec2> u) noexcept;
 
+  /// From now on a tick lasts so long. Precondition: > 0.
+  void set_tick(double dt_s) noexcept { parameters_.dt_s = dt_s; }
+
   /// How far ahead so many drones look, seconds.
   [[nodiscard]] double horizon_s(std::size_t drones) const noexcept;
 

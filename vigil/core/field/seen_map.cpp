@@ -61,4 +61,10 @@ std::size_t steps_along(const Vec2& a, const Vec2& b, double radius_m) noexcept 
   return static_cast<std::size_t>(std::clamp(steps, 1.0, kMost));
 }
 
+void add_way(const Vec2& a, const Vec2& b, double radius_m, std::vector<Vec2>& places) {
+  const std::size_t steps = steps_along(a, b, radius_m);
+  for (std::size_t n = 1; n <= steps; ++n)
+    places.push_back(a + static_cast<double>(n) / static_cast<double>(steps) * (b - a));
+}
+
 }  // namespace vigil::field

@@ -40,5 +40,7 @@ class SeenMap {
 /// Places on the way from a to b, so close that circles of radius_m around them leave nothing of the way's surroundings
 /// unseen but 4 % of the radius; b is the last. At most 64, further apart where the way is that long.
 [[nodiscard]] std::size_t steps_along(const Vec2& a, const Vec2& b, double radius_m) noexcept;
+/// Appends these places.
+void add_way(const Vec2& a, const Vec2& b, double radius_m, std::vector<Vec2>& places);
 
 }  // namespace vigil::field

@@ -45,6 +45,9 @@ class GoalSeeker {
   /// new journey. Precondition: finite travellers, each drone at most once, as many as u.
   void steer(std::span<const Traveller> travellers, std::span<Vec2> u) noexcept;
 
+  /// From now on a tick lasts so long. Precondition: > 0.
+  void set_tick(double dt_s) noexcept { parameters_.dt_s = dt_s; }
+
   /// Closer to its goal than this a drone waits: it has arrived.
   [[nodiscard]] double arrival_distance_m() const noexcept { return 0.5 * parameters_.spacing_m; }
 

@@ -1,5 +1,5 @@
 import { decodeFrame, FrameError, type Frame } from './frames';
-import { decodeMessage, type Ack, type Refused, type ServerMessage } from './messages';
+import { decodeMessage, type Ack, type Preview, type Refused, type ServerMessage } from './messages';
 import { ShapeError } from './shape';
 
 /** The part of a WebSocket that is used here; tests bring their own. */
@@ -137,6 +137,7 @@ export class ConsoleLink {
   private handle(message: ServerMessage | null): void {
     if (!message) return;
     if (message.type === 'ack') this.settle(message.id, { ok: true, ack: message });
+    else if (message.type === 'preview') this.settle(message.id, { ok: true, ack: acknowledged(message) });
     else if (message.type === 'refused') this.settle(message.id, { ok: false, refused: message });
     else if (message.type === 'bye') this.closing = message.code;
     if (message.type === 'bye') this.change(this.current.phase, message.reason);
@@ -207,6 +208,16 @@ export class ConsoleLink {
     this.listener.stateChanged(this.current);
   }
 }
+
+/** A preview is its own acknowledgement. */
+const acknowledged = ({ id, tick, revision }: Preview): Ack => ({
+  type: 'ack',
+  id,
+  tick,
+  pending: false,
+  revision,
+  refused_drones: null,
+});
 
 const refusal = (id: number, code: string, reason: string): Answer => ({
   ok: false,

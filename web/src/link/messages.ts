@@ -128,6 +128,39 @@ const ackShape = record({
 
 const refusedShape = record({ id: orNull(finite), code: name, reason: sentence });
 
+const outlookShape = record({
+  in_s: list(finite, 1000),
+  metric_percent: list(finite, 1000),
+  worst_age_s: list(finite, 1000),
+  areas: list(
+    record({
+      kind: oneOf('cluster', 'area'),
+      name,
+      asked: finite,
+      achieved: finite,
+      covered_in_s: orNull(finite),
+      seen_in_s: orNull(finite),
+      worst_age_s: finite,
+      deadline_s: orNull(finite),
+    }),
+    2000,
+  ),
+  least_pair_m: orNull(finite),
+  active: finite,
+});
+
+const previewShape = record({
+  id: finite,
+  epoch: finite,
+  revision: finite,
+  tick: finite,
+  time_s: finite,
+  seconds: finite,
+  as_is: outlookShape,
+  what_if: orNull(outlookShape),
+  ghosts: record({ spacing_s: finite, xy_m: list(list(orNull(finite), 40_000), 200_000) }),
+});
+
 const kShapes = {
   hello: helloShape,
   mission: missionShape,
@@ -137,6 +170,7 @@ const kShapes = {
   presence: presenceShape,
   ack: ackShape,
   refused: refusedShape,
+  preview: previewShape,
   pong: record({ id: finite }),
   bye: record({ code: name, reason: sentence }),
 } as const satisfies Record<string, Shape<unknown>>;
@@ -156,6 +190,8 @@ export type Operator = Shaped<typeof presenceShape>['operators'][number];
 export type Edited = Shaped<typeof editedShape>;
 export type Ack = MessageOf<'ack'>;
 export type Refused = MessageOf<'refused'>;
+export type Preview = MessageOf<'preview'>;
+export type Outlook = Preview['as_is'];
 export type Role = Shaped<typeof role>;
 
 /** The message, or null for a type that a later version added. Throws ShapeError. */

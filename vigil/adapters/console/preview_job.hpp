@@ -1,0 +1,25 @@
+#pragma once
+
+#include <atomic>
+#include <cstdint>
+#include <memory>
+
+#include "vigil/adapters/console/desk.hpp"
+#include "vigil/runtime/what_if.hpp"
+
+namespace vigil::console {
+
+/// A look ahead that somebody asked for, with all of the desk's that it needs.
+struct PreviewJob {
+  std::uint64_t ticket = 0;
+  std::shared_ptr<runtime::LiveMission> flight;
+  runtime::AreaWatch areas;    ///< what has been seen until now
+  std::uint64_t revision = 0;  ///< of the present targets
+  runtime::WhatIf question;
+};
+
+/// Does it: waits for the flight's state, at most a second, and runs it ahead. PreviewNews, or why there is none.
+/// One thread at a time for each flight.
+[[nodiscard]] DeskNews answer_of(const PreviewJob& job, const std::atomic<bool>& cancelled);
+
+}  // namespace vigil::console
