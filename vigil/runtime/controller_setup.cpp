@@ -41,6 +41,8 @@ swarm::SwarmParameters swarm_parameters(const Mission& mission, swarm::Intent fi
   parameters.only_active_are_obstacles = mission.safety.obstacles == Obstacles::kActiveOnly;
   parameters.health = health_parameters(mission.health);
   parameters.first_intent = first_intent;
+  const field::WorldFrame frame = world_frame(mission);
+  for (const DroneEntry& drone : mission.drones) parameters.starts.push_back(frame.point_to_field(drone.start_m));
   return parameters;
 }
 

@@ -39,7 +39,8 @@ EventWords words_for(std::string_view id, Activity after, const swarm::DroneSnap
     case Activity::kActive:
       return {Severity::kInfo, fmt::format("{} covers", id), who_covers(active, drones), ""};
     case Activity::kNeverSeen:
-      return {Severity::kWarning, fmt::format("{} has not been seen yet", id), "it is not steered",
+      return {Severity::kWarning, fmt::format("{} has not been seen yet", id),
+              "it is not steered; while it says that it flies, the others keep clear of where it was to start",
               "check its tracker and its link"};
     case Activity::kGrounded:
       return {Severity::kInfo, fmt::format("{} is on the ground", id), who_covers(active, drones),

@@ -13,12 +13,14 @@ bool usable(const DroneObservation& observed) {
 /// A negative or undefined age says nothing about freshness: it counts as never heard.
 double sane_age(double age_s) { return age_s >= 0.0 ? age_s : DroneObservation::kNever; }
 
+bool is_seen(const DroneMemory& memory) { return memory.last_good.age_s != DroneObservation::kNever; }
+
 bool on_ground(VehicleMode mode) { return mode == VehicleMode::kGrounded; }
 
 /// What is wrong with the drone itself, whatever the operator wishes; kActive where nothing is.
 Activity fault_of(const DroneMemory& memory, const HealthParameters& health) {
   const DroneObservation& seen = memory.last_good;
-  if (seen.age_s == DroneObservation::kNever) return Activity::kNeverSeen;
+  if (!is_seen(memory)) return Activity::kNeverSeen;
   if (seen.mode == VehicleMode::kFailed) return Activity::kVehicleFailed;
   if (seen.mode == VehicleMode::kFalling) return Activity::kEmergencyStop;
   if (seen.age_s > health.tracking_timeout_s) return Activity::kTrackingLost;
@@ -51,8 +53,9 @@ void settle_intent(DroneMemory& memory) {
     memory.intent = Intent::kCover;
 }
 
+/// By its own word; where it says nothing, whatever was seen is taken to fly.
 bool in_the_air(const DroneMemory& memory) {
-  return memory.last_good.age_s != DroneObservation::kNever && !on_ground(memory.last_good.mode);
+  return memory.last_good.mode == VehicleMode::kUnknown ? is_seen(memory) : !on_ground(memory.last_good.mode);
 }
 
 }  // namespace
@@ -148,12 +151,16 @@ Action action_for(const DroneMemory& memory) noexcept {
     case Activity::kTrackingLost:
     case Activity::kLinkLost:
       return memory.intent == Intent::kLand ? Action::kLand : Action::kVelocity;
+    case Activity::kNeverSeen:  // who says that it flies is kept in its place, and can be brought down
+      if (!in_the_air(memory)) return Action::kNone;
+      return memory.intent == Intent::kLand && !lands_already ? Action::kLand : Action::kVelocity;
     default:
       return Action::kNone;
   }
 }
 
 bool is_airborne(const DroneMemory& memory, const HealthParameters& health) noexcept {
+  if (!is_seen(memory)) return memory.is_expected && in_the_air(memory);
   return in_the_air(memory) && memory.last_good.height_m > health.landed_height_m;
 }
 

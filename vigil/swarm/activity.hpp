@@ -57,6 +57,7 @@ struct DroneMemory {
   Intent intent = Intent::kStayDown;
   Vec2 place = Vec2::Zero();   ///< kGoTo: where to, field frame
   DroneObservation last_good;  ///< the newest observation whose numbers were usable; its ages count on
+  bool is_expected = false;    ///< before it is seen: last_good.position is where the mission says that it starts
   double healthy_s = 0.0;      ///< how long nothing has been wrong with it
   bool is_recovering = false;  ///< something was wrong with it: recovery_s applies
   Activity activity = Activity::kNeverSeen;
@@ -78,7 +79,8 @@ void judge(DroneMemory& memory, const HealthParameters& health, double dt_s) noe
 /// What to ask of the vehicle, given its activity and mode.
 [[nodiscard]] Action action_for(const DroneMemory& memory) noexcept;
 
-/// In the air as far as is known: neither seen on the ground nor below the landed height.
+/// In the air as far as is known, and somewhere that is known: neither on the ground nor below the landed height. One
+/// that says that it flies but was not seen yet is in the air where it is expected.
 [[nodiscard]] bool is_airborne(const DroneMemory& memory, const HealthParameters& health) noexcept;
 
 }  // namespace vigil::swarm

@@ -151,6 +151,24 @@ TEST(Activity, An_emergency_stop_is_said_until_a_take_off_is_asked_for_on_the_gr
   EXPECT_EQ(action_for(memory), Action::kTakeOff);
 }
 
+TEST(Activity, One_that_says_that_it_flies_before_it_is_seen_is_kept_in_its_place_and_can_be_landed) {
+  DroneMemory memory;
+  memory.intent = Intent::kCover;
+  DroneObservation unseen;
+  EXPECT_EQ(judged(memory, unseen), Activity::kNeverSeen);
+  EXPECT_EQ(action_for(memory), Action::kNone);
+  unseen.mode = VehicleMode::kFlying;
+  unseen.link_age_s = 0.0;
+  EXPECT_EQ(judged(memory, unseen), Activity::kNeverSeen);
+  EXPECT_EQ(action_for(memory), Action::kVelocity);
+  EXPECT_FALSE(is_airborne(memory, kHealth));  // nobody knows where
+  memory.is_expected = true;
+  EXPECT_TRUE(is_airborne(memory, kHealth));
+  ASSERT_TRUE(apply_wish(memory, CommandKind::kLand));
+  (void)judged(memory, unseen);
+  EXPECT_EQ(action_for(memory), Action::kLand);
+}
+
 TEST(Activity, Wishes_that_make_no_sense_are_refused) {
   DroneMemory grounded;
   (void)judged(grounded, seen(VehicleMode::kGrounded));

@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <optional>
+#include <vector>
 
 #include "vigil/core/ergodic/controller_kind.hpp"
 #include "vigil/core/ergodic/coverage_statistics.hpp"
@@ -37,6 +38,8 @@ struct SwarmParameters {
   bool only_active_are_obstacles = false;
   HealthParameters health;
   Intent first_intent = Intent::kStayDown;  ///< of every drone before any command
+  /// Where each drone is expected before it is seen, field frame; none where nobody knows.
+  std::vector<Vec2> starts;
 };
 
 }  // namespace vigil::swarm

@@ -98,6 +98,11 @@ SwarmState::SwarmState(const SwarmParameters& parameters)
       c_k_(target_.phi_k),
       a_k_(target_.phi_k) {
   for (DroneMemory& drone : drones_) drone.intent = parameters.first_intent;
+  for (std::size_t index = 0; index < parameters.starts.size(); ++index) {
+    drones_[index].is_expected = true;
+    drones_[index].last_good.position = parameters.starts[index];
+    motions_[index].position = parameters.starts[index];
+  }
   active_.reserve(parameters.drones);
   active_before_.reserve(parameters.drones);
   active_positions_.reserve(parameters.drones);
@@ -321,6 +326,7 @@ void SwarmState::seek_goals() noexcept {
 }
 
 double SwarmState::assumed_age(const DroneMemory& drone) const noexcept {
+  if (drone.activity == Activity::kNeverSeen) return 0.0;  // it has been told nothing but to stay where it is
   const bool is_lost = !is_steered(drone.activity);
   // The paper's barrier knows no age; only a drone that is lost is given more room.
   if (parameters_.barrier.kind == safety::BarrierKind::kPaper && !is_lost) return 0.0;

@@ -96,6 +96,28 @@ TEST(Tick, A_drone_that_failed_in_the_air_keeps_repelling_the_others) {
   EXPECT_EQ(world.snapshot.drones[0].activity, Activity::kVehicleFailed);
 }
 
+TEST(Tick, One_that_flies_unseen_is_given_the_room_where_it_was_to_start) {
+  for (const auto kind : {safety::BarrierKind::kPaper, safety::BarrierKind::kLagAware}) {
+    SwarmParameters expecting = parameters(2);
+    expecting.barrier.kind = kind;
+    expecting.starts = {{1.5, 1.5}, {0.5, 1.5}};
+    IdealWorld world(expecting, {{1.5, 1.5}, {0.5, 1.5}});
+    DroneObservation unseen;
+    unseen.mode = VehicleMode::kFlying;
+    unseen.link_age_s = 0.0;
+    world.observations[0] = unseen;
+    world.step({set_target(target_around(world.state, {1.5, 1.5}))});
+    double least = HUGE_VAL;
+    for (double t = 0.0; t < 30.0; t += kDt) {
+      world.step();
+      EXPECT_EQ(world.snapshot.drones[0].order.velocity, Vec2(0.0, 0.0));
+      least = std::min(least, (world.observations[1].position - Vec2(1.5, 1.5)).norm());
+    }
+    EXPECT_GE(least, 0.2);
+    EXPECT_LT(least, 0.7);
+  }
+}
+
 TEST(Tick, In_the_papers_reading_a_failed_drone_is_no_obstacle) {
   SwarmParameters reading = parameters(2);
   reading.only_active_are_obstacles = true;

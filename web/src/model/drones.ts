@@ -31,7 +31,12 @@ const activity = (word: string, label: string, severity: Severity, why: string):
 
 export const kActivities: readonly ActivityWords[] = [
   activity('active', 'Active', 'ok', 'It covers.'),
-  activity('never_seen', 'Never seen', 'warning', 'No position has come yet.'),
+  activity(
+    'never_seen',
+    'Never seen',
+    'warning',
+    'No position has come yet. While it says that it flies, the others keep clear of where it was to start.',
+  ),
   activity('grounded', 'Grounded', 'info', 'It is on the ground. Take off sends it back to coverage.'),
   activity('taking_off', 'Taking off', 'info', 'It covers as soon as it flies.'),
   activity('landing', 'Landing', 'warning', 'It comes down; the others cover for it.'),
