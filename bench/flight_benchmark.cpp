@@ -7,8 +7,9 @@
 
 #include <benchmark/benchmark.h>
 
-#include "vigil/adapters/recording/csv_recorder.hpp"
+#include "vigil/adapters/recording/bag_recorder.hpp"
 #include "vigil/apps/fleet_choice.hpp"
+#include "vigil/runtime/controller_setup.hpp"
 #include "vigil/runtime/mission_file.hpp"
 #include "vigil/runtime/mission_writer.hpp"
 #include "vigil/runtime/virtual_flight.hpp"
@@ -20,7 +21,7 @@ namespace fs = std::filesystem;
 
 runtime::FlightSummary fly(const runtime::Mission& mission, runtime::Recorder* recorder) {
   const auto fleet = apps::simulated_fleet(mission);
-  if (recorder != nullptr) recorder->begin(mission);
+  if (recorder != nullptr) recorder->begin(mission, {runtime::first_intent(mission), {}});
   runtime::VirtualFlight flight(mission, *fleet, recorder, [] { return std::chrono::nanoseconds{}; });
   while (!flight.is_over()) flight.step();
   if (recorder != nullptr) recorder->finish();
@@ -52,7 +53,7 @@ void FlyAndRecordThePaper(benchmark::State& state) {
   const fs::path out = fs::temp_directory_path() / ("vigil-flight-benchmark-" + std::to_string(::getpid()));
   runtime::FlightSummary summary;
   for (auto _ : state) {
-    recording::CsvRecorder recorder(out, runtime::mission_yaml(mission));
+    recording::BagRecorder recorder(out, runtime::mission_yaml(mission));
     summary = fly(mission, &recorder);
     state.PauseTiming();
     fs::remove_all(out);

@@ -15,7 +15,7 @@ import unittest
 
 VIGIL = sys.argv[1]
 MISSIONS = pathlib.Path(sys.argv[2])
-LONGER_THAN_A_HEADER = 1000  # bytes of a table: a tick has been flown
+LONGER_THAN_ITS_TABLES = 1_000_000  # bytes of a bag: ticks have been flown
 PAPER = str(MISSIONS / "paper.yaml")
 
 
@@ -55,7 +55,7 @@ class CommandLine(unittest.TestCase):
         self.assertTrue(summary["complete"])
         self.assertEqual(summary["active"], [[0.0, 3], [23.0, 2]])
         self.assertIn("23", summary["metric"]["percent_at"])
-        self.assertTrue((self.out / "recording" / "drones.csv").is_file())
+        self.assertTrue((self.out / "recording" / "metadata.yaml").is_file())
 
     def test_json_is_the_summary_and_nothing_else(self):
         result = run("simulate", PAPER, "--out", self.out, "--seconds", 1, "--json")
@@ -200,9 +200,9 @@ class CommandLine(unittest.TestCase):
             out = self.out.with_name(f"out-{signal_number}")
             flight = subprocess.Popen([VIGIL, "simulate", PAPER, "--out", out, "--seconds", "100000"],
                                       stderr=subprocess.PIPE, text=True)
-            drones = out / "recording" / "drones.csv"
+            bag = out / "recording" / "recording_0.db3"
             deadline = time.monotonic() + 60
-            while not (drones.exists() and drones.stat().st_size > LONGER_THAN_A_HEADER):
+            while not (bag.exists() and bag.stat().st_size > LONGER_THAN_ITS_TABLES):
                 self.assertLess(time.monotonic(), deadline)
                 self.assertIsNone(flight.poll())
             flight.send_signal(signal_number)

@@ -12,6 +12,7 @@
 #include "vigil/apps/check_command.hpp"
 #include "vigil/apps/failure.hpp"
 #include "vigil/apps/margins_command.hpp"
+#include "vigil/apps/replay_command.hpp"
 #include "vigil/apps/report_command.hpp"
 #include "vigil/apps/serve_command.hpp"
 #include "vigil/apps/simulate_command.hpp"
@@ -26,6 +27,7 @@ struct Arguments {
   CampaignOptions campaign;
   CheckOptions check;
   MarginsOptions margins;
+  ReplayOptions replay;
   ReportArguments report;
   ServeOptions serve;
 };
@@ -125,6 +127,15 @@ CLI::App* add_report(CLI::App& program, ReportArguments& arguments) {
   return command;
 }
 
+CLI::App* add_replay(CLI::App& program, ReplayOptions& options) {
+  CLI::App* command = program.add_subcommand("replay", "Fly a recording again, tick by tick, from what it was given");
+  command->add_option("DIR", options.directory, "The directory that simulate or serve --record wrote")->required();
+  command->add_flag("--verify", options.verify, "Recompute every tick and compare it, bit for bit")->required();
+  command->add_flag("--json", options.json, "Print JSON instead of a text");
+  command->footer(exit_codes("1 a tick differs or cannot be recomputed, ", false));
+  return command;
+}
+
 CLI::App* add_serve(CLI::App& program, ServeOptions& options) {
   CLI::App* command = program.add_subcommand("serve", "Fly a mission in real time, with the operator's console");
   command->add_option("MISSION", options.mission, "The mission file (YAML)")->required();
@@ -163,6 +174,7 @@ int run(int argc, char** argv) {
   const CLI::App* check_command = add_check(program, arguments.check);
   const CLI::App* margins_command = add_margins(program, arguments.margins);
   const CLI::App* report_command = add_report(program, arguments.report);
+  const CLI::App* replay_command = add_replay(program, arguments.replay);
   const CLI::App* serve_command = add_serve(program, arguments.serve);
   const CLI::App* schema_command =
       program.add_subcommand("schema", "Print the JSON Schema of mission files, for editors");
@@ -180,6 +192,7 @@ int run(int argc, char** argv) {
   if (check_command->parsed()) return check(arguments.check);
   if (margins_command->parsed()) return margins(arguments.margins);
   if (report_command->parsed()) return report(arguments.report);
+  if (replay_command->parsed()) return replay(arguments.replay);
   if (serve_command->parsed()) return serve(arguments.serve, VIGIL_VERSION);
   if (schema_command->parsed()) return print_schema();
   std::fputs(program.help().c_str(), stdout);

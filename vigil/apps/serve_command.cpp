@@ -1,5 +1,6 @@
 #include "vigil/apps/serve_command.hpp"
 
+#include <chrono>
 #include <cstdio>
 #include <memory>
 #include <optional>
@@ -8,7 +9,7 @@
 #include <fmt/format.h>
 
 #include "vigil/adapters/console/server.hpp"
-#include "vigil/adapters/recording/csv_recorder.hpp"
+#include "vigil/adapters/recording/bag_recorder.hpp"
 #include "vigil/apps/failure.hpp"
 #include "vigil/apps/fleet_choice.hpp"
 #include "vigil/apps/interrupt.hpp"
@@ -48,16 +49,23 @@ fs::path recording_of(const fs::path& folder, std::uint32_t epoch) {
   return epoch == 1 ? folder : fs::path(fmt::format("{}-{}", folder.string(), epoch));
 }
 
+std::int64_t nanoseconds_since_1970() {
+  return std::chrono::duration_cast<std::chrono::nanoseconds>(std::chrono::system_clock::now().time_since_epoch())
+      .count();
+}
+
 std::unique_ptr<runtime::QueuedRecorder> recorder_for(const runtime::Mission& mission, const ServeOptions& options,
-                                                      std::uint32_t epoch) {
+                                                      const runtime::FlightStart& start, std::uint32_t epoch) {
   if (options.record.empty()) return nullptr;
   const fs::path folder = recording_of(options.record, epoch);
   std::error_code error;
   if (fs::exists(fs::symlink_status(folder, error)))
     throw Failure(kBadInput, fmt::format("--record {}: is there already; name a directory that is not, or remove it",
                                          in_words(folder)));
-  auto recorder = std::make_unique<recording::CsvRecorder>(folder, runtime::mission_yaml(mission), options.keep_every);
-  return std::make_unique<runtime::QueuedRecorder>(std::move(recorder), mission);
+  recording::BagRecorderOptions how{.keep_every = options.keep_every, .began_ns = nanoseconds_since_1970()};
+  how.bag.must_survive_power = true;
+  auto recorder = std::make_unique<recording::BagRecorder>(folder, runtime::mission_yaml(mission), how);
+  return std::make_unique<runtime::QueuedRecorder>(std::move(recorder), mission, start);
 }
 
 std::vector<DroneStart> starts_of(const runtime::SavedFlight& saved) {
@@ -68,13 +76,13 @@ std::vector<DroneStart> starts_of(const runtime::SavedFlight& saved) {
 
 std::shared_ptr<runtime::LiveMission> make_flight(const runtime::Mission& mission, const ServeOptions& options,
                                                   std::uint32_t epoch, const runtime::SavedFlight* saved) {
-  runtime::LiveStart start{runtime::first_intent(mission), {}};
+  runtime::FlightStart start{runtime::first_intent(mission), {}};
   // After a restart the drones hover until somebody has looked, and resumes.
   if (saved != nullptr) start = {swarm::Intent::kHold, saved->past};
   std::unique_ptr<runtime::VirtualFleet> fleet =
       saved == nullptr ? simulated_fleet(mission) : simulated_fleet(mission, starts_of(*saved));
-  return std::make_shared<runtime::LiveMission>(mission, std::move(fleet), recorder_for(mission, options, epoch), start,
-                                                epoch);
+  return std::make_shared<runtime::LiveMission>(mission, std::move(fleet), recorder_for(mission, options, start, epoch),
+                                                start, epoch);
 }
 
 /// What an earlier run left of the same mission; nothing where it left nothing.

@@ -7,12 +7,13 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include "vigil/adapters/recording/csv_recorder.hpp"
+#include "vigil/adapters/recording/bag_recorder.hpp"
 #include "vigil/apps/failure.hpp"
 #include "vigil/apps/fleet_choice.hpp"
 #include "vigil/apps/interrupt.hpp"
 #include "vigil/apps/progress_bar.hpp"
 #include "vigil/apps/text_file.hpp"
+#include "vigil/runtime/controller_setup.hpp"
 #include "vigil/runtime/mission_error.hpp"
 #include "vigil/runtime/mission_writer.hpp"
 #include "vigil/runtime/virtual_flight.hpp"
@@ -78,8 +79,8 @@ int simulate(const SimulateOptions& options) {
   catch_interrupts();
 
   const std::unique_ptr<runtime::VirtualFleet> fleet = simulated_fleet(mission);
-  recording::CsvRecorder recorder(options.out, runtime::mission_yaml(mission), options.keep_every);
-  recorder.begin(mission);
+  recording::BagRecorder recorder(options.out, runtime::mission_yaml(mission), {.keep_every = options.keep_every});
+  recorder.begin(mission, {runtime::first_intent(mission), {}});
   runtime::VirtualFlight flight(mission, *fleet, &recorder, now);
   fly(flight);
   recorder.finish();

@@ -20,7 +20,7 @@ bool concerns_drones(CommandKind kind) { return kind != CommandKind::kSetTarget 
 }  // namespace
 
 LiveFlight::LiveFlight(const Mission& mission, Fleet& fleet, VirtualFleet* world, Recorder* recorder,
-                       const LiveStart& start)
+                       const FlightStart& start)
     : fleet_(fleet),
       world_(world),
       recorder_(recorder),
@@ -124,9 +124,9 @@ void LiveFlight::judge_and_record(const swarm::Snapshot& snapshot) noexcept {
   if (recorder_ == nullptr) return;
   if (audit_) {
     const Clearances clearances = audit_->judge(world_->truth(), snapshot);
-    recorder_->record({snapshot, world_->truth(), clearances});
+    recorder_->record({snapshot, observations_, commands_, world_->truth(), clearances});
   } else {
-    recorder_->record({snapshot, {}, {}});
+    recorder_->record({snapshot, observations_, commands_, {}, {}});
   }
 }
 

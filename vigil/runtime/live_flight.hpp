@@ -8,6 +8,7 @@
 
 #include "vigil/runtime/flight_audit.hpp"
 #include "vigil/runtime/flight_script.hpp"
+#include "vigil/runtime/flight_start.hpp"
 #include "vigil/runtime/goal_script.hpp"
 #include "vigil/runtime/hand_over.hpp"
 #include "vigil/runtime/live_frame.hpp"
@@ -47,19 +48,13 @@ struct LiveEvent {
   std::size_t refused = 0;
 };
 
-/// How a live flight begins.
-struct LiveStart {
-  swarm::Intent first_intent = swarm::Intent::kStayDown;
-  std::optional<swarm::SwarmPast> past;  ///< of an earlier run of the program
-};
-
 /// A mission flown tick by tick, without an end of its own: script, fleet, tick, judge, recorder. The control thread
 /// only. Nothing allocates but an event of the script.
 class LiveFlight {
  public:
   /// Precondition: a mission that mission checks accepted; what is referred to outlives this. `world`: the fleet where
   /// it is a simulated one, otherwise null, and the script is not played; recorder may be null.
-  LiveFlight(const Mission& mission, Fleet& fleet, VirtualFleet* world, Recorder* recorder, const LiveStart& start);
+  LiveFlight(const Mission& mission, Fleet& fleet, VirtualFleet* world, Recorder* recorder, const FlightStart& start);
 
   /// One tick under `commands`, all of kind kSwarm: events, observation, control, judgement, record, orders; in a
   /// simulated world dt passes. Writes all of `out` but what is the clock's. Precondition: events_of(commands) does not

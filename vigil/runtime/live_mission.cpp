@@ -30,7 +30,7 @@ void run(const std::stop_token& stop, ControlLoop& loop) {
 }  // namespace
 
 LiveMission::LiveMission(Mission mission, std::unique_ptr<VirtualFleet> fleet, std::unique_ptr<QueuedRecorder> recorder,
-                         const LiveStart& start, std::uint32_t epoch)
+                         const FlightStart& start, std::uint32_t epoch)
     : mission_(std::move(mission)),
       fleet_(std::move(fleet)),
       recorder_(std::move(recorder)),

@@ -15,7 +15,7 @@ class LiveMission {
  public:
   /// `epoch` tells missions apart that one program flies one after the other. The recorder may be null.
   LiveMission(Mission mission, std::unique_ptr<VirtualFleet> fleet, std::unique_ptr<QueuedRecorder> recorder,
-              const LiveStart& start, std::uint32_t epoch);
+              const FlightStart& start, std::uint32_t epoch);
   /// Ends the control thread.
   ~LiveMission();
   LiveMission(const LiveMission&) = delete;

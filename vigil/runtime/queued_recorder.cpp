@@ -18,20 +18,23 @@ constexpr auto kLookEvery = 10ms;
 
 std::size_t slot_count(std::size_t drones) {
   const std::size_t slot_bytes =
-      64 + drones * (sizeof(swarm::DroneSnapshot) + sizeof(TruthSample) + 4 * sizeof(swarm::Event));
+      64 + drones * (sizeof(swarm::DroneSnapshot) + sizeof(swarm::DroneObservation) + sizeof(swarm::Command) +
+                     sizeof(TruthSample) + 4 * sizeof(swarm::Event));
   return std::clamp<std::size_t>(QueuedRecorder::kMostBytes / slot_bytes, 4, 1024);
 }
 
 }  // namespace
 
-QueuedRecorder::QueuedRecorder(std::unique_ptr<Recorder> inner, const Mission& mission)
+QueuedRecorder::QueuedRecorder(std::unique_ptr<Recorder> inner, const Mission& mission, const FlightStart& start)
     : inner_(std::move(inner)), notes_(kMostNotes) {
-  inner_->begin(mission);
+  inner_->begin(mission, start);
   const std::size_t drones = mission.drones.size();
   const std::size_t slots = slot_count(drones);
   slots_.reserve(slots);
   for (std::size_t n = 0; n < slots; ++n) {
-    slots_.push_back({swarm::Snapshot(drones), {}, {}});
+    slots_.push_back({swarm::Snapshot(drones), {}, {}, {}, {}});
+    slots_.back().observations.reserve(drones);
+    slots_.back().commands.reserve(drones + 64);
     slots_.back().truth.reserve(drones);
     slots_.back().snapshot.events.reserve(4 * drones + 64);
   }
@@ -48,6 +51,8 @@ void QueuedRecorder::record(const TickRecord& tick) noexcept {
   }
   Slot& slot = slots_[number % slots_.size()];
   slot.snapshot = tick.snapshot;
+  slot.observations.assign(tick.observations.begin(), tick.observations.end());
+  slot.commands.assign(tick.commands.begin(), tick.commands.end());
   slot.truth.assign(tick.truth.begin(), tick.truth.end());
   slot.clearances = tick.clearances;
   written_.store(number + 1, std::memory_order_release);
@@ -75,17 +80,35 @@ void QueuedRecorder::write_notes() {
 bool QueuedRecorder::write_tick() {
   const std::uint64_t number = taken_.load(std::memory_order_relaxed);
   if (number == written_.load(std::memory_order_acquire)) return false;
-  const Slot& slot = slots_[number % slots_.size()];
-  inner_->record({slot.snapshot, slot.truth, slot.clearances});
+  Slot& slot = slots_[number % slots_.size()];
+  inner_->record({slot.snapshot, slot.observations, slot.commands, slot.truth, slot.clearances});
+  slot.commands.clear();  // here, so that targets that nobody needs any more are not freed by the control thread
   taken_.store(number + 1, std::memory_order_release);
   kept_.fetch_add(1, std::memory_order_relaxed);
   return true;
 }
 
+void QueuedRecorder::flush_inner() {
+  inner_->flush();
+  const std::lock_guard lock(trouble_mutex_);
+  trouble_ = inner_->trouble();
+}
+
+std::string QueuedRecorder::trouble() const {
+  const std::lock_guard lock(trouble_mutex_);
+  return trouble_;
+}
+
 void QueuedRecorder::run(const std::stop_token& stop) {
+  auto flush_at = std::chrono::steady_clock::now();
   while (!stop.stop_requested()) {
     write_notes();
-    while (write_tick()) write_notes();
+    while (std::chrono::steady_clock::now() < flush_at && write_tick()) write_notes();
+    if (std::chrono::steady_clock::now() >= flush_at) {
+      flush_inner();
+      flush_at = std::chrono::steady_clock::now() + kFlushEvery;
+      if (written_.load(std::memory_order_acquire) != taken_.load(std::memory_order_relaxed)) continue;
+    }
     std::this_thread::sleep_for(kLookEvery);
   }
 }

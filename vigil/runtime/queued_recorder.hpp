@@ -1,8 +1,10 @@
 #pragma once
 
 #include <atomic>
+#include <chrono>
 #include <cstdint>
 #include <memory>
+#include <mutex>
 #include <string>
 #include <thread>
 #include <variant>
@@ -21,13 +23,16 @@ class QueuedRecorder final : public Recorder {
   /// Ticks that wait for the disk use at most about this much memory.
   static constexpr std::size_t kMostBytes = std::size_t{64} << 20U;
 
-  /// Calls inner->begin(mission) at once: its exceptions are the caller's.
-  QueuedRecorder(std::unique_ptr<Recorder> inner, const Mission& mission);
+  /// What was given is flushed so often, so that this is about all that is lost with the program.
+  static constexpr std::chrono::milliseconds kFlushEvery{40};
+
+  /// Calls inner->begin(mission, start) at once: its exceptions are the caller's.
+  QueuedRecorder(std::unique_ptr<Recorder> inner, const Mission& mission, const FlightStart& start);
   ~QueuedRecorder() override;
   QueuedRecorder(const QueuedRecorder&) = delete;
   QueuedRecorder& operator=(const QueuedRecorder&) = delete;
 
-  void begin(const Mission& /*mission*/) override {}
+  void begin(const Mission& /*mission*/, const FlightStart& /*start*/) override {}
   void record(const TickRecord& tick) noexcept override;
   void log(const LoggedEvent& event) noexcept override;
   void targets(double time_s, const TargetsSection& targets) noexcept override;
@@ -38,11 +43,15 @@ class QueuedRecorder final : public Recorder {
   // Any thread.
   [[nodiscard]] std::uint64_t kept_ticks() const noexcept { return kept_.load(std::memory_order_relaxed); }
   [[nodiscard]] std::uint64_t lost_ticks() const noexcept { return lost_.load(std::memory_order_relaxed); }
+  /// The inner recorder's, as of its last flush.
+  [[nodiscard]] std::string trouble() const override;
 
  private:
   /// A tick as it waits; slots are made once and used again.
   struct Slot {
     swarm::Snapshot snapshot;
+    std::vector<swarm::DroneObservation> observations;
+    std::vector<swarm::Command> commands;
     std::vector<TruthSample> truth;
     Clearances clearances;
   };
@@ -54,6 +63,7 @@ class QueuedRecorder final : public Recorder {
 
   void write_notes();
   bool write_tick();
+  void flush_inner();
   void run(const std::stop_token& stop);
 
   std::unique_ptr<Recorder> inner_;
@@ -63,6 +73,8 @@ class QueuedRecorder final : public Recorder {
   Inbox<Note> notes_;
   std::atomic<std::uint64_t> kept_{0};
   std::atomic<std::uint64_t> lost_{0};
+  mutable std::mutex trouble_mutex_;
+  std::string trouble_;
   std::jthread thread_;
 };
 

@@ -29,7 +29,7 @@ struct Kept {
 class GatedRecorder final : public Recorder {
  public:
   explicit GatedRecorder(Kept& kept) : kept_(kept) {}
-  void begin(const Mission&) override {}
+  void begin(const Mission&, const FlightStart&) override {}
   void record(const TickRecord& tick) noexcept override {
     std::unique_lock lock(kept_.mutex);
     kept_.opened.wait(lock, [this] { return kept_.is_open; });
@@ -48,12 +48,12 @@ class GatedRecorder final : public Recorder {
 
 void record_ticks(QueuedRecorder& recorder, std::uint64_t from, std::uint64_t to) {
   swarm::Snapshot snapshot(3);
-  for (snapshot.tick = from; snapshot.tick < to; ++snapshot.tick) recorder.record({snapshot, {}, {}});
+  for (snapshot.tick = from; snapshot.tick < to; ++snapshot.tick) recorder.record({snapshot, {}, {}, {}, {}});
 }
 
 TEST(QueuedRecorderTest, Everything_arrives_in_order) {
   Kept kept;
-  QueuedRecorder recorder(std::make_unique<GatedRecorder>(kept), small_mission());
+  QueuedRecorder recorder(std::make_unique<GatedRecorder>(kept), small_mission(), {});
   record_ticks(recorder, 0, 500);
   recorder.log({1.0, "operator", "land", "a", ""});
   recorder.targets(2.0, {});
@@ -68,7 +68,7 @@ TEST(QueuedRecorderTest, Everything_arrives_in_order) {
 TEST(QueuedRecorderTest, A_disk_that_hangs_delays_no_tick_and_what_it_costs_is_counted) {
   Kept kept;
   kept.is_open = false;
-  QueuedRecorder recorder(std::make_unique<GatedRecorder>(kept), small_mission());
+  QueuedRecorder recorder(std::make_unique<GatedRecorder>(kept), small_mission(), {});
   record_ticks(recorder, 0, 3000);  // returns, whatever the disk does
   EXPECT_GT(recorder.lost_ticks(), 1000U);
   kept.open();

@@ -5,7 +5,9 @@
 #include <string_view>
 
 #include "vigil/runtime/fleet.hpp"
+#include "vigil/runtime/flight_start.hpp"
 #include "vigil/runtime/mission.hpp"
+#include "vigil/swarm/command.hpp"
 #include "vigil/swarm/snapshot.hpp"
 
 namespace vigil::runtime {
@@ -21,7 +23,9 @@ struct Clearances {
 
 /// One tick, as it is kept.
 struct TickRecord {
-  const swarm::Snapshot& snapshot;
+  const swarm::Snapshot& snapshot;                        ///< what it decided
+  std::span<const swarm::DroneObservation> observations;  ///< what it was given, one per drone
+  std::span<const swarm::Command> commands;
   std::span<const TruthSample> truth;  ///< empty in a live flight
   Clearances clearances;
 };
@@ -40,11 +44,15 @@ struct LoggedEvent {
 class Recorder {
  public:
   virtual ~Recorder() = default;
-  virtual void begin(const Mission& mission) = 0;
+  virtual void begin(const Mission& mission, const FlightStart& start) = 0;
   virtual void record(const TickRecord& tick) noexcept = 0;
   virtual void log(const LoggedEvent& event) noexcept = 0;
   /// The targets that hold from time_s on.
   virtual void targets(double time_s, const TargetsSection& targets) noexcept = 0;
+  /// What was given so far outlives this program from here on, however it ends.
+  virtual void flush() noexcept {}
+  /// Why nothing more, or not everything, is kept, for people; empty where all is well.
+  [[nodiscard]] virtual std::string trouble() const { return {}; }
   virtual void finish() = 0;
 };
 

@@ -101,7 +101,7 @@ void VirtualFlight::step() {
   const Clearances clearances = audit_.judge(fleet_.truth(), snapshot_);
   if (goals_) goals_->watch(fleet_.truth(), snapshot_, time_s);
   summary_.add(snapshot_, took.count());
-  if (recorder_ != nullptr) recorder_->record({snapshot_, fleet_.truth(), clearances});
+  if (recorder_ != nullptr) recorder_->record({snapshot_, observations_, due.commands, fleet_.truth(), clearances});
   log_snapshot_events();
 
   std::transform(snapshot_.drones.begin(), snapshot_.drones.end(), orders_.begin(),

@@ -117,4 +117,18 @@ void CsvFile::fail(const char* doing, int number) {
   if (error_.empty()) error_ = fmt::format("{}: cannot {} it: {}", path_.string(), doing, std::strerror(number));
 }
 
+void create_folder(const std::filesystem::path& folder) {
+  std::error_code error;
+  std::filesystem::create_directories(folder, error);
+  if (error)
+    throw RecordingError(
+        fmt::format("{}: cannot create the folder: {}; choose another --out", folder.string(), error.message()));
+}
+
+void write_text(const std::filesystem::path& path, std::string_view text) {
+  CsvFile file(path);
+  file.raw(text);
+  if (!file.close()) throw RecordingError(file.error());
+}
+
 }  // namespace vigil::recording

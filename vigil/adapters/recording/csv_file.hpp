@@ -62,4 +62,9 @@ class CsvFile {
   std::string error_;
 };
 
+/// Creates a folder, and those around it. RecordingError where that fails.
+void create_folder(const std::filesystem::path& folder);
+/// Writes a whole text file, which must not exist. RecordingError where that fails.
+void write_text(const std::filesystem::path& path, std::string_view text);
+
 }  // namespace vigil::recording

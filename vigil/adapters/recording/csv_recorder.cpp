@@ -5,6 +5,7 @@
 #include <exception>
 #include <utility>
 
+#include "vigil/adapters/recording/least_clearances.hpp"
 #include "vigil/adapters/recording/recording_error.hpp"
 #include "vigil/adapters/recording/vocabulary.hpp"
 #include "vigil/swarm/names.hpp"
@@ -27,31 +28,15 @@ CsvFile with_header(const std::filesystem::path& path, std::string_view header) 
   return file;
 }
 
-void write_text(const std::filesystem::path& path, std::string_view text) {
-  CsvFile file(path);
-  file.raw(text);
-  if (!file.close()) throw RecordingError(file.error());
-}
-
-runtime::Clearances least(const runtime::Clearances& a, const runtime::Clearances& b) {
-  return {std::min(a.airborne_pair_m, b.airborne_pair_m), std::min(a.active_pair_m, b.active_pair_m),
-          std::min(a.wall_m, b.wall_m), std::min(a.no_fly_m, b.no_fly_m)};
-}
-
 }  // namespace
 
 CsvRecorder::CsvRecorder(const std::filesystem::path& directory, std::string mission_text, std::uint64_t keep_every)
-    : folder_(directory / "recording"), mission_text_(std::move(mission_text)), keep_every_(keep_every) {
+    : folder_(directory), mission_text_(std::move(mission_text)), keep_every_(keep_every) {
   assert(keep_every >= 1);
 }
 
-void CsvRecorder::begin(const runtime::Mission& mission) {
-  std::error_code error;
-  std::filesystem::create_directories(folder_, error);
-  if (error) {
-    throw RecordingError(
-        fmt::format("{}: cannot create the folder: {}; choose another --out", folder_.string(), error.message()));
-  }
+void CsvRecorder::begin(const runtime::Mission& mission, const runtime::FlightStart& /*start*/) {
+  create_folder(folder_);
   frame_ = {mission.field.origin_m, mission.field.yaw_rad};
   for (const runtime::DroneEntry& drone : mission.drones) {
     ids_.push_back(drone.id);

@@ -12,8 +12,8 @@
 
 namespace vigil::recording {
 
-/// Writes DIRECTORY/recording/: mission.yaml, ticks.csv, drones.csv, targets.csv, events.csv (docs/recording.md). World
-/// frame. Same flight, same bytes. One thread at a time.
+/// Writes a flight as tables: DIRECTORY/mission.yaml, ticks.csv, drones.csv, targets.csv, events.csv
+/// (docs/recording.md). World frame. Same flight, same bytes. One thread at a time.
 class CsvRecorder final : public runtime::Recorder {
  public:
   /// `mission_text`: the effective mission file. `keep_every`: only every so manieth tick is kept (and always the first
@@ -21,7 +21,7 @@ class CsvRecorder final : public runtime::Recorder {
   CsvRecorder(const std::filesystem::path& directory, std::string mission_text, std::uint64_t keep_every = 1);
 
   /// RecordingError where the folder or a file cannot be created, or is there already.
-  void begin(const runtime::Mission& mission) override;
+  void begin(const runtime::Mission& mission, const runtime::FlightStart& start) override;
   void record(const runtime::TickRecord& tick) noexcept override;
   void log(const runtime::LoggedEvent& event) noexcept override;
   void targets(double time_s, const runtime::TargetsSection& targets) noexcept override;

@@ -1,11 +1,10 @@
 #include "vigil/adapters/recording/csv_recorder.hpp"
 
 #include <algorithm>
-#include <csignal>
-#include <sys/resource.h>
 
 #include "vigil/adapters/recording/flight_for_tests.hpp"
 #include "vigil/adapters/recording/recording_error.hpp"
+#include "vigil/adapters/recording/small_disk_for_tests.hpp"
 
 namespace vigil::recording {
 namespace {
@@ -23,30 +22,16 @@ std::string message_of(const auto& act) {
   return "";
 }
 
-/// Lets no file grow beyond so many bytes while it lives, like a full disk.
-class SmallDisk {
- public:
-  explicit SmallDisk(rlim_t bytes) {
-    ::getrlimit(RLIMIT_FSIZE, &before_);
-    signal_before_ = std::signal(SIGXFSZ, SIG_IGN);
-    const rlimit small{bytes, before_.rlim_max};
-    ::setrlimit(RLIMIT_FSIZE, &small);
-  }
-  ~SmallDisk() {
-    ::setrlimit(RLIMIT_FSIZE, &before_);
-    std::signal(SIGXFSZ, signal_before_);
-  }
-  SmallDisk(const SmallDisk&) = delete;
-  SmallDisk& operator=(const SmallDisk&) = delete;
-
- private:
-  rlimit before_{};
-  void (*signal_before_)(int) = nullptr;
-};
+/// What `vigil export` leaves of a flight made by hand.
+void export_flight(const std::filesystem::path& folder, std::size_t ticks, std::size_t drones,
+                   std::uint64_t keep_every = 1) {
+  CsvRecorder recorder(folder / "out", "format: 1\nname: by hand\n", keep_every);
+  record_flight(recorder, ticks, drones);
+}
 
 TEST(CsvRecorder, Writes_one_line_a_tick_and_one_a_drone_and_tick) {
   const TemporaryFolder folder;
-  record_flight(folder.path(), 10, 3);
+  export_flight(folder.path(), 10, 3);
   EXPECT_EQ(lines_of(contents(folder.file("ticks.csv"))), 1U + 10U);
   EXPECT_EQ(lines_of(contents(folder.file("drones.csv"))), 1U + 30U);
   EXPECT_EQ(contents(folder.file("mission.yaml")), "format: 1\nname: by hand\n");
@@ -55,8 +40,8 @@ TEST(CsvRecorder, Writes_one_line_a_tick_and_one_a_drone_and_tick) {
 TEST(CsvRecorder, The_same_flight_gives_the_same_bytes) {
   const TemporaryFolder a;
   const TemporaryFolder b;
-  record_flight(a.path(), 40, 3);
-  record_flight(b.path(), 40, 3);
+  export_flight(a.path(), 40, 3);
+  export_flight(b.path(), 40, 3);
   for (const char* name : {"mission.yaml", "ticks.csv", "drones.csv", "targets.csv", "events.csv"}) {
     EXPECT_EQ(contents(a.file(name)), contents(b.file(name))) << name;
   }
@@ -67,8 +52,8 @@ TEST(CsvRecorder, Positions_are_written_in_the_world_frame) {
   runtime::Mission mission = mission_of(1);
   mission.field.origin_m = {10.0, -5.0};
   mission.field.yaw_rad = 0.0;
-  CsvRecorder recorder(folder.path(), "");
-  recorder.begin(mission);
+  CsvRecorder recorder(folder.path() / "out", "");
+  recorder.begin(mission, {});
   swarm::Snapshot snapshot = snapshot_at(0, 1);
   snapshot.drones[0].position = {0.25, 0.5};
   record(recorder, snapshot);
@@ -78,10 +63,10 @@ TEST(CsvRecorder, Positions_are_written_in_the_world_frame) {
 
 TEST(CsvRecorder, What_is_not_known_leaves_an_empty_cell) {
   const TemporaryFolder folder;
-  CsvRecorder recorder(folder.path(), "");
-  recorder.begin(mission_of(1));
+  CsvRecorder recorder(folder.path() / "out", "");
+  recorder.begin(mission_of(1), {});
   const swarm::Snapshot snapshot = snapshot_at(0, 1);
-  recorder.record({snapshot, {}, {}});
+  recorder.record({snapshot, {}, {}, {}, {}});
   recorder.finish();
   EXPECT_NE(contents(folder.file("ticks.csv")).find("\n0,,,1,none,0,,,,\n"), std::string::npos);
   EXPECT_NE(contents(folder.file("drones.csv")).find(",0,,,\n"), std::string::npos);
@@ -89,7 +74,7 @@ TEST(CsvRecorder, What_is_not_known_leaves_an_empty_cell) {
 
 TEST(CsvRecorder, Text_with_commas_quotes_and_line_ends_is_quoted) {
   const TemporaryFolder folder;
-  record_flight(folder.path(), 2, 1);
+  export_flight(folder.path(), 2, 1);
   EXPECT_NE(contents(folder.file("events.csv")).find("0,mission,begin,,\"said \"\"go\"\",\nand went\"\n"),
             std::string::npos);
   EXPECT_NE(contents(folder.file("targets.csv")).find("0,cluster,\"east, \"\"far\"\"\",2,0.7,0.25\n"),
@@ -98,7 +83,7 @@ TEST(CsvRecorder, Text_with_commas_quotes_and_line_ends_is_quoted) {
 
 TEST(CsvRecorder, Keeps_every_third_tick_and_the_first_and_the_last) {
   const TemporaryFolder folder;
-  record_flight(folder.path(), 12, 2, 3);
+  export_flight(folder.path(), 12, 2, 3);
   const std::string ticks = contents(folder.file("ticks.csv"));
   EXPECT_EQ(lines_of(ticks), 1U + 5U);  // 0, 3, 6, 9 and 11
   EXPECT_NE(ticks.find("\n0.22,"), std::string::npos);
@@ -107,12 +92,12 @@ TEST(CsvRecorder, Keeps_every_third_tick_and_the_first_and_the_last) {
 
 TEST(CsvRecorder, A_close_call_in_a_tick_that_was_left_out_is_kept) {
   const TemporaryFolder folder;
-  CsvRecorder recorder(folder.path(), "", 10);
-  recorder.begin(mission_of(1));
+  CsvRecorder recorder(folder.path() / "out", "", 10);
+  recorder.begin(mission_of(1), {});
   for (std::size_t tick = 0; tick <= 10; ++tick) {
     swarm::Snapshot snapshot = snapshot_at(tick, 1);
     snapshot.fallback = tick == 4;
-    recorder.record({snapshot, {}, {.active_pair_m = tick == 4 ? 0.125 : 0.5}});
+    recorder.record({snapshot, {}, {}, {}, {.active_pair_m = tick == 4 ? 0.125 : 0.5}});
   }
   recorder.finish();
   const std::string ticks = contents(folder.file("ticks.csv"));
@@ -121,8 +106,8 @@ TEST(CsvRecorder, A_close_call_in_a_tick_that_was_left_out_is_kept) {
 
 TEST(CsvRecorder, The_nearest_of_what_holds_a_drone_is_named) {
   const TemporaryFolder folder;
-  CsvRecorder recorder(folder.path(), "");
-  recorder.begin(mission_of(3));
+  CsvRecorder recorder(folder.path() / "out", "");
+  recorder.begin(mission_of(3), {});
   swarm::Snapshot snapshot = snapshot_at(0, 3);
   snapshot.drones[0].filter.holding = {{{safety::RowKind::kWall, 3, 0.4}, {safety::RowKind::kNeighbour, 2, 0.25}}};
   snapshot.drones[0].filter.holding_count = 2;
@@ -139,16 +124,16 @@ TEST(CsvRecorder, A_folder_that_cannot_be_made_is_refused_at_the_beginning) {
   const TemporaryFolder folder;
   overwrite(folder.path() / "file", "");
   CsvRecorder recorder(folder.path() / "file", "");
-  const std::string message = message_of([&] { recorder.begin(mission_of(1)); });
-  EXPECT_NE(message.find("file/recording: cannot create the folder"), std::string::npos) << message;
+  const std::string message = message_of([&] { recorder.begin(mission_of(1), {}); });
+  EXPECT_NE(message.find("file: cannot create the folder"), std::string::npos) << message;
 }
 
 TEST(CsvRecorder, An_earlier_recording_is_not_overwritten) {
   const TemporaryFolder folder;
-  record_flight(folder.path(), 3, 1);
+  export_flight(folder.path(), 3, 1);
   const std::string before = contents(folder.file("drones.csv"));
-  CsvRecorder recorder(folder.path(), "other");
-  EXPECT_NE(message_of([&] { recorder.begin(mission_of(1)); }), "");
+  CsvRecorder recorder(folder.path() / "out", "other");
+  EXPECT_NE(message_of([&] { recorder.begin(mission_of(1), {}); }), "");
   EXPECT_EQ(contents(folder.file("drones.csv")), before);
 }
 
@@ -157,8 +142,8 @@ TEST(CsvRecorder, A_full_disk_does_not_end_the_flight_and_is_told_at_the_end) {
   std::string message;
   {
     const SmallDisk disk(1 << 19);
-    CsvRecorder recorder(folder.path(), "");
-    recorder.begin(mission_of(3));
+    CsvRecorder recorder(folder.path() / "out", "");
+    recorder.begin(mission_of(3), {});
     for (std::size_t tick = 0; tick < 3000; ++tick) record(recorder, snapshot_at(tick, 3));
     message = message_of([&] { recorder.finish(); });
   }

@@ -10,7 +10,7 @@
 
 #include <gtest/gtest.h>
 
-#include "vigil/adapters/recording/csv_recorder.hpp"
+#include "vigil/runtime/recorder.hpp"
 
 /// A flight made by hand, for the tests of writer and reader.
 namespace vigil::recording {
@@ -29,7 +29,7 @@ class TemporaryFolder {
   TemporaryFolder(const TemporaryFolder&) = delete;
   TemporaryFolder& operator=(const TemporaryFolder&) = delete;
   [[nodiscard]] const std::filesystem::path& path() const { return path_; }
-  [[nodiscard]] std::filesystem::path file(const std::string& name) const { return path_ / "recording" / name; }
+  [[nodiscard]] std::filesystem::path file(const std::string& name) const { return path_ / "out" / name; }
 
  private:
   std::filesystem::path path_;
@@ -49,6 +49,10 @@ inline runtime::Mission mission_of(std::size_t drones) {
   mission.field.size_m = {3.0, 3.0};
   mission.field.origin_m = {-1.5, -1.5};
   mission.field.yaw_rad = 0.1;
+  mission.control.speed_limit_m_s = 0.3;
+  mission.safety.barrier = safety::BarrierKind::kPaper;
+  mission.safety.separation_m = 0.2;
+  mission.safety.wall_distance_m = 0.1;
   for (std::size_t i = 0; i < drones; ++i) mission.drones.push_back({"cf" + std::to_string(i + 1), Vec2::Zero()});
   mission.targets.clusters.push_back({"east, \"far\"", {{0.7, 0.25}, {0.9, 0.45}}, 2.0, {}});
   mission.targets.areas.push_back({"pond", {{0.0, 0.0}, {1.0, 0.0}, {0.0, 1.0}}, 5.0, 0.0, {}});
@@ -85,17 +89,33 @@ inline std::vector<runtime::TruthSample> truth_of(const swarm::Snapshot& snapsho
   return truth;
 }
 
-inline void record(CsvRecorder& recorder, const swarm::Snapshot& snapshot) {
+inline std::vector<swarm::DroneObservation> observations_of(const swarm::Snapshot& snapshot) {
+  std::vector<swarm::DroneObservation> observations;
+  for (const swarm::DroneSnapshot& d : snapshot.drones) {
+    observations.push_back({.position = d.position,
+                            .velocity = d.velocity,
+                            .height_m = d.height_m,
+                            .age_s = 0.0,
+                            .mode = d.mode,
+                            .link_age_s = 0.0,
+                            .battery = 0.9});
+  }
+  return observations;
+}
+
+inline void record(runtime::Recorder& recorder, const swarm::Snapshot& snapshot) {
   const std::vector<runtime::TruthSample> truth = truth_of(snapshot);
-  recorder.record({snapshot, truth, {.airborne_pair_m = 0.5 + snapshot.time_s, .active_pair_m = 0.6, .wall_m = 0.4}});
+  recorder.record({snapshot,
+                   observations_of(snapshot),
+                   {},
+                   truth,
+                   {.airborne_pair_m = 0.5 + snapshot.time_s, .active_pair_m = 0.6, .wall_m = 0.4}});
 }
 
 /// Records so many ticks with two lists of targets and two events.
-inline void record_flight(const std::filesystem::path& directory, std::size_t ticks, std::size_t drones,
-                          std::uint64_t keep_every = 1) {
+inline void record_flight(runtime::Recorder& recorder, std::size_t ticks, std::size_t drones) {
   const runtime::Mission mission = mission_of(drones);
-  CsvRecorder recorder(directory, "format: 1\nname: by hand\n", keep_every);
-  recorder.begin(mission);
+  recorder.begin(mission, {});
   recorder.targets(0.0, mission.targets);
   recorder.log({0.0, "mission", "begin", "", "said \"go\",\nand went"});
   for (std::size_t tick = 0; tick < ticks; ++tick) record(recorder, snapshot_at(tick, drones));

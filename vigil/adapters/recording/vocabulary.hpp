@@ -16,6 +16,7 @@ inline constexpr std::string_view kDroneHeader =
 inline constexpr std::string_view kTargetHeader = "t_s,kind,name,weight,x_m,y_m";
 inline constexpr std::string_view kEventHeader = "t_s,source,what,drone,detail";
 
+inline constexpr std::string_view kFolder = "recording";
 inline constexpr std::string_view kMissionFile = "mission.yaml";
 inline constexpr std::string_view kTickFile = "ticks.csv";
 inline constexpr std::string_view kDroneFile = "drones.csv";

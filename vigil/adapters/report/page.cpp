@@ -123,8 +123,8 @@ std::string events_section(const FlightData& data) {
   std::string text =
       "<section id=\"events\"><h2>Events</h2>" + (events.empty() ? "<p class=\"note\">None.</p>" : table(rows));
   if (events.size() > kMostEvents) {
-    text += fmt::format("<p class=\"note\">The first {} of {}; all of them are in recording/events.csv.</p>",
-                        kMostEvents, events.size());
+    text += fmt::format("<p class=\"note\">The first {} of {}; `vigil export` writes all of them.</p>", kMostEvents,
+                        events.size());
   }
   return text + "</section>\n";
 }

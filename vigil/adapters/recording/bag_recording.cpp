@@ -1,0 +1,146 @@
+#include "vigil/adapters/recording/bag_recording.hpp"
+
+#include <algorithm>
+
+#include <fmt/format.h>
+
+#include "vigil/adapters/recording/own_messages.hpp"
+#include "vigil/adapters/recording/own_topics.hpp"
+#include "vigil/adapters/recording/recording_error.hpp"
+#include "vigil/adapters/recording/vocabulary.hpp"
+
+namespace vigil::recording {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// The bag's files in the order in which they were written, from the first that is still there.
+std::vector<fs::path> files_in(const fs::path& folder) {
+  std::error_code error;
+  std::vector<std::pair<std::size_t, fs::path>> found;
+  for (const fs::directory_entry& entry : fs::directory_iterator(folder, error)) {
+    const std::string name = entry.path().filename().string();
+    std::size_t number = 0;
+    if (entry.path().extension() == ".db3" && std::sscanf(name.c_str(), "recording_%zu.db3", &number) == 1)
+      found.emplace_back(number, entry.path());
+  }
+  std::ranges::sort(found);
+  std::vector<fs::path> files;
+  for (auto& [number, path] : found) files.push_back(std::move(path));
+  if (files.empty())
+    throw RecordingError(
+        fmt::format("{}: no recording here; name a directory that `vigil simulate --out` or `vigil serve --record` "
+                    "wrote",
+                    folder.string()));
+  return files;
+}
+
+}  // namespace
+
+BagRecording::BagRecording(const fs::path& directory) {
+  for (const fs::path& path : files_in(directory / kFolder)) open_file(path);
+  for (std::uint32_t n = 0; n < files_.size(); ++n) look_through(n);
+  if (!has_head_)
+    throw RecordingError(
+        fmt::format("{}: the mission's message is missing; it ended before it began", files_.front().path));
+  if (!is_finished_) incomplete_reason_ = "it was not finished: the program was ended, or is still writing";
+}
+
+void BagRecording::open_file(const fs::path& path) {
+  File file{.path = path.string(), .database = std::make_unique<Database>(path, Database::Mode::kRead)};
+  Statement topics(*file.database, "SELECT id, name FROM topics");
+  const std::vector<Topic> own = own_topics();
+  while (topics.step()) {
+    const std::string_view name = topics.text(1);
+    if (name == own[kMissionTopic - 1].name) file.topics.mission = topics.number(0);
+    if (name == own[kTickTopic - 1].name) file.topics.tick = topics.number(0);
+    if (name == own[kCommandsTopic - 1].name) file.topics.commands = topics.number(0);
+    if (name == own[kTargetsTopic - 1].name) file.topics.targets = topics.number(0);
+    if (name == own[kEventTopic - 1].name) file.topics.event = topics.number(0);
+  }
+  if (file.topics.tick == 0)
+    throw RecordingError(
+        fmt::format("{}: has no topic {}; it is a bag of another program", file.path, own[kTickTopic - 1].name));
+  file.select = std::make_unique<Statement>(
+      *file.database,
+      fmt::format("SELECT topic_id, data FROM messages WHERE id > ? AND id <= ? AND topic_id IN ({}, {}) "
+                  "ORDER BY id",
+                  file.topics.tick, file.topics.commands));
+  files_.push_back(std::move(file));
+}
+
+/// Where the ticks are, and all that comes now and then.
+void BagRecording::look_through(std::uint32_t number) {
+  const File& file = files_[number];
+  const TopicIds& topics = file.topics;
+  Statement all(*file.database,
+                fmt::format("SELECT id, topic_id, CASE WHEN topic_id IN ({}, {}, {}) THEN data END FROM messages WHERE "
+                            "topic_id IN ({}, {}, {}, {}) ORDER BY id",
+                            topics.mission, topics.targets, topics.event, topics.tick, topics.mission, topics.targets,
+                            topics.event));
+  std::int64_t after = 0;
+  while (all.step()) {
+    const std::int64_t id = all.number(0);
+    if (all.number(1) != topics.tick) {
+      take_note(file, all.number(1), all.bytes(2));
+      continue;
+    }
+    ticks_.push_back({number, after, id});
+    after = id;
+  }
+}
+
+void BagRecording::take_note(const File& file, std::int64_t topic, std::span<const char> message) {
+  try {
+    if (topic == file.topics.mission && !has_head_) {
+      head_ = read_head(message);
+      has_head_ = true;
+    }
+    if (topic == file.topics.targets) targets_.push_back(read_targets(message));
+    if (topic == file.topics.event) add_event(read_event(message));
+  } catch (const RecordingError& problem) {
+    throw RecordingError(fmt::format("{}: {}", file.path, problem.what()));
+  }
+}
+
+/// Events are told a little after their time, and not always in their order.
+void BagRecording::add_event(runtime::LoggedEvent event) {
+  if (event.source == kRecorderSource && event.what == kFinished) {
+    is_finished_ = true;
+    return;
+  }
+  const auto later = std::ranges::upper_bound(events_, event.time_s, {}, &runtime::LoggedEvent::time_s);
+  events_.insert(later, std::move(event));
+}
+
+void BagRecording::read(std::uint64_t number, runtime::RecordedTick& into) {
+  const Place& place = ticks_.at(number);
+  File& file = files_[place.file];
+  try {
+    read_messages(file, place, into);
+  } catch (const RecordingError& problem) {
+    file.select->reset();
+    throw RecordingError(
+        fmt::format("{}: tick {} of the recording (message {}): {}", file.path, number, place.id, problem.what()));
+  }
+}
+
+void BagRecording::read_messages(File& file, const Place& place, runtime::RecordedTick& into) {
+  into.commands.clear();
+  CommandsRead given;
+  Statement& select = *file.select;
+  select.bind(1, place.after);
+  select.bind(2, place.id);
+  while (select.step()) {
+    if (select.number(0) == file.topics.commands)
+      given = read_commands(select.bytes(1));
+    else
+      read_tick(select.bytes(1), into);
+  }
+  select.reset();
+  if (given.is_damaged && !into.damage) into.damage = {{}, "the commands that the tick was given"};
+  // Commands of a tick that is not there itself are nobody's.
+  if (given.tick == into.snapshot.tick) into.commands = std::move(given.commands);
+}
+
+}  // namespace vigil::recording

@@ -1,0 +1,175 @@
+#include <algorithm>
+
+#include "vigil/adapters/recording/cdr_reader.hpp"
+#include "vigil/adapters/recording/own_messages.hpp"
+#include "vigil/adapters/recording/recording_error.hpp"
+#include "vigil/swarm/names.hpp"
+
+/// Messages that come now and then: commands, targets, events.
+namespace vigil::recording {
+namespace {
+
+constexpr std::size_t kCommandBytes = 48;
+constexpr std::size_t kEntryBytes = 64;
+constexpr std::size_t kNoteBytes = 64;
+constexpr std::int32_t kAllDrones = -1;
+
+std::size_t bytes_of(const swarm::Command& command) {
+  if (command.target == nullptr) return kCommandBytes;
+  const auto phi = static_cast<std::size_t>(command.target->phi_k.size());
+  return kCommandBytes + kEntryBytes + sizeof(double) * (phi + 4 * command.target->no_fly.size());
+}
+
+void put_target(CdrWriter& writer, const swarm::CoverageTarget& target) {
+  writer.put(target.has_targets);
+  writer.put(static_cast<std::uint32_t>(target.phi_k.rows()));
+  writer.sequence(std::span<const double>(target.phi_k.data(), static_cast<std::size_t>(target.phi_k.size())));
+  writer.count(4 * target.no_fly.size());
+  for (const field::Segment& edge : target.no_fly)
+    for (const double value : {edge.a.x(), edge.a.y(), edge.b.x(), edge.b.y()}) writer.put(value);
+}
+
+std::shared_ptr<const swarm::CoverageTarget> target_in(CdrReader& reader) {
+  auto target = std::make_shared<swarm::CoverageTarget>();
+  target->has_targets = reader.flag();
+  const std::size_t rows = reader.u32();
+  const std::vector<double> phi = reader.sequence<double>();
+  if (rows == 0 ? !phi.empty() : phi.size() % rows != 0) throw RecordingError("coefficients of no shape");
+  if (rows > 0)
+    target->phi_k = Eigen::Map<const ergodic::Coefficients>(phi.data(), static_cast<Eigen::Index>(rows),
+                                                            static_cast<Eigen::Index>(phi.size() / rows));
+  const std::vector<double> edges = reader.sequence<double>();
+  if (edges.size() % 4 != 0) throw RecordingError("no-fly edges with an end missing");
+  for (std::size_t n = 0; n < edges.size(); n += 4)
+    target->no_fly.push_back({{edges[n], edges[n + 1]}, {edges[n + 2], edges[n + 3]}});
+  return target;
+}
+
+void put_command(CdrWriter& writer, const swarm::Command& command) {
+  writer.put(static_cast<std::uint8_t>(command.kind));
+  writer.put(command.drone ? static_cast<std::int32_t>(command.drone->index()) : kAllDrones);
+  writer.put(command.place.x());
+  writer.put(command.place.y());
+  writer.count(command.target == nullptr ? 0 : 1);
+  if (command.target != nullptr) put_target(writer, *command.target);
+}
+
+swarm::Command command_in(CdrReader& reader) {
+  swarm::Command command;
+  const std::uint8_t kind = reader.u8();
+  if (kind >= swarm::kCommandWords.size()) throw RecordingError("a command of a kind that there is not");
+  command.kind = static_cast<swarm::CommandKind>(kind);
+  const std::int32_t drone = reader.i32();
+  if (drone != kAllDrones) command.drone = swarm::DroneId(static_cast<std::size_t>(std::max(drone, 0)));
+  command.place.x() = reader.number();
+  command.place.y() = reader.number();
+  if (reader.count(1) > 0) command.target = target_in(reader);
+  return command;
+}
+
+/// Names, weights, and points one after the other.
+template <class Entry, class PointsOf>
+void put_entries(CdrWriter& writer, const std::vector<Entry>& entries, const PointsOf& points_of) {
+  writer.count(entries.size());
+  for (const Entry& entry : entries) {
+    writer.put(std::string_view(entry.name));
+    writer.put(entry.weight);
+    writer.count(2 * points_of(entry).size());
+    for (const Vec2& point : points_of(entry))
+      for (const double value : {point.x(), point.y()}) writer.put(value);
+  }
+}
+
+template <class Entry, class PointsOf>
+void take_entries(CdrReader& reader, std::vector<Entry>& entries, const PointsOf& points_of) {
+  constexpr std::size_t kLeastBytes = 17;
+  const std::size_t count = reader.count(kLeastBytes);
+  for (std::size_t n = 0; n < count; ++n) {
+    Entry& entry = entries.emplace_back();
+    entry.name = reader.text();
+    entry.weight = reader.number();
+    const std::vector<double> numbers = reader.sequence<double>();
+    if (numbers.size() % 2 != 0) throw RecordingError("a target point without its y");
+    for (std::size_t i = 0; i < numbers.size(); i += 2) points_of(entry).push_back({numbers[i], numbers[i + 1]});
+  }
+}
+
+template <class Cluster>
+auto& points_of_cluster(Cluster& cluster) {
+  return cluster.points_m;
+}
+template <class Area>
+auto& points_of_area(Area& area) {
+  return area.outline_m;
+}
+
+std::size_t bytes_of(const runtime::TargetsSection& targets) {
+  std::size_t bytes = kNoteBytes;
+  for (const auto& cluster : targets.clusters)
+    bytes += kEntryBytes + cluster.name.size() + sizeof(Vec2) * cluster.points_m.size();
+  for (const auto& area : targets.areas) bytes += kEntryBytes + area.name.size() + sizeof(Vec2) * area.outline_m.size();
+  return bytes;
+}
+
+void expect_sealed(std::span<const char> message, const char* what) {
+  if (!is_sealed(message)) throw RecordingError(std::string(what) + " is damaged: its seal is another");
+}
+
+}  // namespace
+
+void write_commands(CdrWriter& writer, std::uint64_t tick, std::span<const swarm::Command> commands) {
+  std::size_t bytes = kNoteBytes;
+  for (const swarm::Command& command : commands) bytes += bytes_of(command);
+  writer.start(bytes);
+  writer.put(tick);
+  writer.count(commands.size());
+  for (const swarm::Command& command : commands) put_command(writer, command);
+  writer.seal();
+}
+
+CommandsRead read_commands(std::span<const char> message) {
+  CdrReader reader(message);
+  CommandsRead read{.tick = reader.u64(), .is_damaged = !is_sealed(message)};
+  if (read.is_damaged) return read;
+  constexpr std::size_t kLeastBytes = 25;
+  const std::size_t count = reader.count(kLeastBytes);
+  for (std::size_t n = 0; n < count; ++n) read.commands.push_back(command_in(reader));
+  return read;
+}
+
+void write_targets(CdrWriter& writer, double time_s, const runtime::TargetsSection& targets) {
+  writer.start(bytes_of(targets));
+  writer.put(time_s);
+  put_entries(writer, targets.clusters, points_of_cluster<const runtime::ClusterEntry>);
+  put_entries(writer, targets.areas, points_of_area<const runtime::AreaEntry>);
+  writer.seal();
+}
+
+runtime::RecordedTargets read_targets(std::span<const char> message) {
+  expect_sealed(message, "a list of targets");
+  CdrReader reader(message);
+  runtime::RecordedTargets targets;
+  targets.time_s = reader.number();
+  take_entries(reader, targets.clusters, points_of_cluster<runtime::ClusterEntry>);
+  take_entries(reader, targets.areas, points_of_area<runtime::AreaEntry>);
+  return targets;
+}
+
+void write_event(CdrWriter& writer, const runtime::LoggedEvent& event) {
+  writer.start(kNoteBytes + event.source.size() + event.what.size() + event.drone.size() + event.detail.size());
+  writer.put(event.time_s);
+  for (const std::string* text : {&event.source, &event.what, &event.drone, &event.detail})
+    writer.put(std::string_view(*text));
+  writer.seal();
+}
+
+runtime::LoggedEvent read_event(std::span<const char> message) {
+  expect_sealed(message, "an event");
+  CdrReader reader(message);
+  runtime::LoggedEvent event;
+  event.time_s = reader.number();
+  for (std::string* text : {&event.source, &event.what, &event.drone, &event.detail}) *text = reader.text();
+  return event;
+}
+
+}  // namespace vigil::recording

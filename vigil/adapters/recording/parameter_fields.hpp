@@ -1,0 +1,51 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+
+#include "vigil/swarm/parameters.hpp"
+
+namespace vigil::recording {
+
+/// Shows every value of the controller's parameters to `visit`, in the order of vigil_msgs/msg/Mission: writer and
+/// reader go by this one list. visit() takes numbers, flags and optional numbers, visit.count() and visit.index() whole
+/// ones, visit.choice() an enumeration of so many values.
+template <class Visit, class Parameters>
+void visit_parameters(Visit& visit, Parameters& p) {
+  visit(p.field.length_x);
+  visit(p.field.length_y);
+  visit.count(p.drones);
+  visit(p.dt_s);
+  visit.index(p.basis_max_index);
+  visit(p.basis_smoothness);
+  visit.choice(p.accounting, 3);
+  visit(p.memory_s);
+  visit.choice(p.controller, 2);
+  visit(p.fade);
+  visit(p.look_ahead_s);
+  visit.choice(p.barrier.kind, 2);
+  visit(p.barrier.separation_m);
+  visit(p.barrier.contact_distance_m);
+  visit(p.barrier.wall_distance_m);
+  visit(p.barrier.no_fly_buffer_m);
+  visit(p.barrier.u_max_m_s);
+  visit(p.barrier.dt_s);
+  visit(p.barrier.pair_gain);
+  visit(p.barrier.wall_gain);
+  visit(p.barrier.lag_s);
+  visit(p.barrier.margin_m);
+  visit(p.barrier.pair_margin_m);
+  visit(p.barrier.sensing_range_m);
+  visit(p.barrier.wall_range_m);
+  visit(p.command_delay_s);
+  visit(p.observation_delay_s);
+  visit(p.only_active_are_obstacles);
+  visit(p.health.tracking_timeout_s);
+  visit(p.health.link_timeout_s);
+  visit(p.health.battery_reserve);
+  visit(p.health.recovery_s);
+  visit(p.health.landed_height_m);
+  visit.choice(p.first_intent, 9);
+}
+
+}  // namespace vigil::recording

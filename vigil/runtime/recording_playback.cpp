@@ -1,0 +1,123 @@
+#include "vigil/runtime/recording_playback.hpp"
+
+#include <algorithm>
+#include <limits>
+#include <stdexcept>
+
+#include "vigil/runtime/mission_setup.hpp"
+#include "vigil/runtime/recollection.hpp"
+
+namespace vigil::runtime {
+namespace {
+
+constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+
+/// Each kept tick, completed, in its order.
+template <class Take>
+void for_each_tick(FlightRecording& recording, const Take& take) {
+  Recollection recollection(recording.head());
+  RecordedTick tick(recording.head().parameters.drones);
+  for (std::uint64_t number = 0; number < recording.tick_count(); ++number) {
+    recording.read(number, tick);
+    recollection.complete(tick);
+    take(tick);
+  }
+}
+
+TargetsSection section_of(const RecordedTargets& targets) {
+  TargetsSection section;
+  section.clusters = targets.clusters;
+  section.areas = targets.areas;
+  return section;
+}
+
+void expect_drones(const FlightRecording& recording, const Mission& mission) {
+  if (recording.head().parameters.drones != mission.drones.size())
+    throw std::runtime_error("the recording has another number of drones than its mission; it is damaged");
+}
+
+/// Writes ticks as columns, world frame.
+class Columns {
+ public:
+  Columns(const Mission& mission, RecordedFlight& flight) : frame_(world_frame(mission)), flight_(flight) {}
+
+  void add(const RecordedTick& tick) {
+    const swarm::Snapshot& s = tick.snapshot;
+    TickColumns& to = flight_.ticks;
+    to.time_s.push_back(s.time_s);
+    to.metric.push_back(s.has_metric ? s.metric : kNaN);
+    to.metric_percent.push_back(s.has_metric ? s.metric_percent : kNaN);
+    to.active.push_back(s.active);
+    to.idle.push_back(s.idle);
+    to.fallback.push_back(s.fallback ? 1 : 0);
+    to.clearances.push_back(tick.clearances);
+    for (std::size_t i = 0; i < s.drones.size(); ++i) {
+      add(s.drones[i]);
+      add_truth(tick.truth.empty() ? nullptr : &tick.truth[i]);
+    }
+  }
+
+ private:
+  void add(const swarm::DroneSnapshot& drone) {
+    const bool is_seen = drone.age_s != swarm::DroneObservation::kNever;
+    DroneColumns& to = flight_.rows;
+    to.mode.push_back(drone.mode);
+    to.activity.push_back(drone.activity);
+    to.position_m.push_back(frame_.point_to_world(drone.position));
+    to.height_m.push_back(drone.height_m);
+    to.velocity_m_s.push_back(frame_.vector_to_world(drone.velocity));
+    to.age_s.push_back(is_seen ? drone.age_s : swarm::DroneObservation::kNever);
+    to.nominal_m_s.push_back(frame_.vector_to_world(drone.u_nom));
+    to.action.push_back(drone.order.action);
+    to.command_m_s.push_back(frame_.vector_to_world(drone.order.velocity));
+    to.held_by.push_back(nearest_holding(drone.filter));
+    to.fallback.push_back(drone.filter.fallback ? 1 : 0);
+  }
+
+  void add_truth(const TruthSample* truth) {
+    const Vec2 place = truth == nullptr ? Vec2(kNaN, kNaN) : frame_.point_to_world(truth->position);
+    flight_.rows.true_position_m.push_back(place);
+    flight_.rows.true_height_m.push_back(truth == nullptr ? kNaN : truth->height_m);
+  }
+
+  static std::optional<safety::HoldingRow> nearest_holding(const safety::FilterReport& report) {
+    const auto* const end = report.holding.data() + report.holding_count;
+    const auto* const row = std::min_element(report.holding.data(), end,
+                                             [](const auto& a, const auto& b) { return a.distance_m < b.distance_m; });
+    return row == end ? std::nullopt : std::optional(*row);
+  }
+
+  field::WorldFrame frame_;
+  RecordedFlight& flight_;
+};
+
+}  // namespace
+
+void play(FlightRecording& recording, const Mission& mission, Recorder& recorder) {
+  expect_drones(recording, mission);
+  recorder.begin(mission, recording.head().start);
+  for (const RecordedTargets& targets : recording.targets()) recorder.targets(targets.time_s, section_of(targets));
+  for (const LoggedEvent& event : recording.events()) recorder.log(event);
+  for_each_tick(recording, [&](const RecordedTick& tick) {
+    recorder.record({tick.snapshot, tick.observations, tick.commands, tick.truth, tick.clearances});
+  });
+  recorder.finish();
+}
+
+RecordedFlight collect(FlightRecording& recording, const Mission& mission) {
+  expect_drones(recording, mission);
+  if (recording.tick_count() == 0)
+    throw std::runtime_error("the recording has no complete tick; fly the mission again");
+  RecordedFlight flight;
+  flight.mission_text = recording.head().mission_text;
+  for (const DroneEntry& drone : mission.drones) flight.drones.push_back(drone.id);
+  flight.targets.assign(recording.targets().begin(), recording.targets().end());
+  flight.events.assign(recording.events().begin(), recording.events().end());
+  flight.incomplete_reason = recording.incomplete_reason();
+  flight.is_complete = flight.incomplete_reason.empty();
+  Columns columns(mission, flight);
+  for_each_tick(recording, [&](const RecordedTick& tick) { columns.add(tick); });
+  return flight;
+}
+
+}  // namespace vigil::runtime
