@@ -5,6 +5,7 @@ import './look/layout.css';
 import './look/controls.css';
 import './look/panels.css';
 import './look/overlays.css';
+import './look/foresight.css';
 import type { Socket, World } from './link/console_link';
 import type { MapView } from './map/map_view';
 import { AppContext, type App } from './panels/app_context';
@@ -12,6 +13,7 @@ import { ConsolePage } from './panels/console_page';
 import { listenForKeys } from './panels/shortcuts';
 import { Editor } from './session/editor';
 import { FleetOrders } from './session/fleet_orders';
+import { Foresight } from './session/foresight';
 import { Session } from './session/session';
 import { Settings } from './session/settings';
 
@@ -45,6 +47,7 @@ function makeApp(): App {
     editor,
     settings,
     orders,
+    foresight: new Foresight(session, editor),
     map: signal<MapView | null>(null),
     isHelpOpen: signal(false),
     isLogOpen: signal(false),

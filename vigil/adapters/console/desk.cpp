@@ -117,7 +117,7 @@ void Desk::preview(std::uint64_t ticket, const std::atomic<std::uint64_t>& newes
 }
 
 void Desk::look_ahead(std::uint64_t ticket, std::uint64_t asker, const Preview& request,
-                      std::vector<std::size_t> without) {
+                      const std::vector<std::size_t>& without) {
   PreviewJob job{ticket, flight_, ground_->watch(), desk_->revision(), {}};
   job.question.seconds = request.seconds;
   for (const std::size_t drone : without) job.question.without.emplace_back(drone);

@@ -98,7 +98,8 @@ class Desk {
   void preview(std::uint64_t ticket, const std::atomic<std::uint64_t>& newest, std::uint64_t request,
                const std::vector<runtime::TargetEdit>& edits, std::uint64_t based_on);
   /// Lets a thread of its own look ahead; a newer request of the same asker supersedes it. without: drones' indices.
-  void look_ahead(std::uint64_t ticket, std::uint64_t asker, const Preview& request, std::vector<std::size_t> without);
+  void look_ahead(std::uint64_t ticket, std::uint64_t asker, const Preview& request,
+                  const std::vector<std::size_t>& without);
   void load_mission(std::uint64_t ticket, const std::string& yaml);
   /// An event of the mission file wants other targets.
   void play(std::uint32_t epoch, std::size_t event_index);

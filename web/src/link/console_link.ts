@@ -32,7 +32,9 @@ export interface LinkState {
   readonly retryAtMs: number | null;
 }
 
-export type Answer = { readonly ok: true; readonly ack: Ack } | { readonly ok: false; readonly refused: Refused };
+export type Answer =
+  | { readonly ok: true; readonly ack: Ack; readonly preview?: Preview }
+  | { readonly ok: false; readonly refused: Refused };
 export type Command = { readonly type: string } & Readonly<Record<string, unknown>>;
 
 export interface Listener {
@@ -137,7 +139,8 @@ export class ConsoleLink {
   private handle(message: ServerMessage | null): void {
     if (!message) return;
     if (message.type === 'ack') this.settle(message.id, { ok: true, ack: message });
-    else if (message.type === 'preview') this.settle(message.id, { ok: true, ack: acknowledged(message) });
+    else if (message.type === 'preview')
+      this.settle(message.id, { ok: true, ack: acknowledged(message), preview: message });
     else if (message.type === 'refused') this.settle(message.id, { ok: false, refused: message });
     else if (message.type === 'bye') this.closing = message.code;
     if (message.type === 'bye') this.change(this.current.phase, message.reason);

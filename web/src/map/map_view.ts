@@ -2,12 +2,14 @@ import { effect, signal } from '@preact/signals';
 import type { Snapshot } from '../link/frames';
 import type { Point } from '../model/geometry';
 import type { Editor } from '../session/editor';
+import type { Foresight } from '../session/foresight';
 import type { Session } from '../session/session';
 import type { Settings } from '../session/settings';
 import { boundsOf, fit, panned, toScreen, toWorld, zoomed, type Camera, type Size } from './camera';
 import { DroneLayer, glyphSize } from './drone_layer';
 import { DronePlaces } from './drone_places';
 import { drawDroneNotes } from './drones_overlay';
+import { drawGhosts } from './ghosts_overlay';
 import type { Frame, Gl } from './gl';
 import { drawGround, drawRulers } from './ground';
 import { hitAt, type Hit } from './hit';
@@ -79,6 +81,7 @@ export class MapView {
     readonly session: Session,
     readonly editor: Editor,
     readonly settings: Settings,
+    readonly foresight: Foresight,
   ) {
     [this.ground, this.glCanvas, this.canvas] = ['ground', 'picture', 'notes'].map((name) => {
       const canvas = document.createElement('canvas');
@@ -149,7 +152,7 @@ export class MapView {
       void read.value;
     for (const read of [editor.selected, editor.selectedPoint, editor.selectedDrones, editor.sketch, editor.measured])
       void read.value;
-    for (const read of [editor.cursor, editor.tool, this.pointer]) void read.value;
+    for (const read of [editor.cursor, editor.tool, this.pointer, this.foresight.answer]) void read.value;
     this.isDirty = true;
   }
 
@@ -434,6 +437,9 @@ export class MapView {
       editedBy: this.editedBy(),
       overdue: new Set(session.status.value?.areas.filter((area) => area.is_overdue).map((area) => area.name)),
     });
+    const preview = this.foresight.answer.value;
+    if (session.snapshot && preview && preview.epoch === session.mission.value?.epoch)
+      drawGhosts(pen, { preview, timeS: session.snapshot.timeS, selected: editor.selectedDrones.value });
     if (session.snapshot && on.has('drones'))
       drawDroneNotes(pen, {
         snapshot: session.snapshot,

@@ -26,6 +26,8 @@ export interface Palette {
   readonly failure: string;
   readonly target: string;
   readonly area: string;
+  /** What would be. */
+  readonly ghost: string;
 }
 
 const dark: Palette = {
@@ -53,6 +55,7 @@ const dark: Palette = {
   failure: '#ff6fb5',
   target: '#ffd9dd',
   area: '#ffb3ba',
+  ghost: '#c9a7ff',
 };
 
 const light: Palette = {
@@ -80,6 +83,7 @@ const light: Palette = {
   failure: '#b3135f',
   target: '#7a0f20',
   area: '#9c1227',
+  ghost: '#6b35b8',
 };
 
 export const kPalettes = { dark, light } as const;

@@ -48,6 +48,7 @@ export const kActions = {
   fit: { keys: 'F', does: 'Fit the field', group: 'View' },
   'zoom-in': { keys: '+', does: 'Zoom in', group: 'View' },
   'zoom-out': { keys: '-', does: 'Zoom out', group: 'View' },
+  'what-if': { keys: 'W', does: 'Look a minute ahead; without the selected drones', group: 'View' },
   'pause-clock': { keys: 'K', does: 'Pause or go on (simulated fleet)', group: 'View' },
   'event-log': { keys: 'O', does: 'Event log', group: 'View' },
   theme: { keys: 'Shift+K', does: 'Dark or light', group: 'View' },

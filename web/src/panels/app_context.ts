@@ -4,6 +4,7 @@ import { useContext } from 'preact/hooks';
 import type { MapView } from '../map/map_view';
 import type { Editor } from '../session/editor';
 import type { FleetOrders } from '../session/fleet_orders';
+import type { Foresight } from '../session/foresight';
 import type { Session } from '../session/session';
 import type { Settings } from '../session/settings';
 
@@ -12,6 +13,7 @@ export interface App {
   readonly session: Session;
   readonly editor: Editor;
   readonly orders: FleetOrders;
+  readonly foresight: Foresight;
   readonly settings: Settings;
   /** There once the page has its first layout. */
   readonly map: Signal<MapView | null>;

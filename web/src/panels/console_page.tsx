@@ -2,6 +2,7 @@ import { Areas } from './areas';
 import { useApp } from './app_context';
 import { EventLog } from './event_log';
 import { FleetTable } from './fleet_table';
+import { ForesightPanel } from './foresight_panel';
 import { Help } from './help';
 import { Inspector, Orders } from './inspector';
 import { MapPanel } from './map_panel';
@@ -25,6 +26,7 @@ export function ConsolePage() {
         <MapPanel />
         <aside class="right" aria-label="Fleet and drone">
           <FleetTable />
+          <ForesightPanel />
           <Inspector />
           <Orders />
         </aside>

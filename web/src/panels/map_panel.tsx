@@ -12,10 +12,10 @@ import { StagingBar } from './staging_bar';
 import { usePopover } from './use_popover';
 
 export function MapPanel() {
-  const { session, editor, settings, map } = useApp();
+  const { session, editor, settings, foresight, map } = useApp();
   const host = useRef<HTMLDivElement>(null);
   useEffect(() => {
-    const view = new MapView(host.current!, session, editor, settings);
+    const view = new MapView(host.current!, session, editor, settings, foresight);
     new Gestures(host.current!, view);
     map.value = view;
     return () => view.close();
@@ -46,6 +46,7 @@ export function MapPanel() {
         <MapButton icon="minus" label="Zoom out" act={() => map.value?.zoom(1 / 1.4)} />
         <MapButton icon="undo" label="Undo" act={() => editor.undo()} />
         <MapButton icon="redo" label="Redo" act={() => editor.redo()} />
+        <AheadButton />
       </div>
       <StagingBar />
       <Covers />
@@ -65,6 +66,21 @@ function MapButton({
   return (
     <button type="button" aria-label={label} title={label} onClick={act}>
       <Icon name={icon} />
+    </button>
+  );
+}
+
+function AheadButton() {
+  const { foresight } = useApp();
+  return (
+    <button
+      type="button"
+      aria-pressed={foresight.isOn.value}
+      aria-label="Look ahead"
+      title="Look ahead: what if the selected drones were missing? (W)"
+      onClick={() => foresight.toggle()}
+    >
+      <Icon name="ahead" />
     </button>
   );
 }

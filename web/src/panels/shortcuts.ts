@@ -108,6 +108,7 @@ const kDeeds: Record<Action, (app: App) => void> = {
   fit: (app) => app.map.value?.fitField(),
   'zoom-in': (app) => app.map.value?.zoom(1.4),
   'zoom-out': (app) => app.map.value?.zoom(1 / 1.4),
+  'what-if': (app) => app.foresight.toggle(),
   'pause-clock': pausing,
   'event-log': (app) => (app.isLogOpen.value = !app.isLogOpen.value),
   theme: (app) => (app.settings.theme.value = app.settings.theme.value === 'dark' ? 'light' : 'dark'),

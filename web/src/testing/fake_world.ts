@@ -11,6 +11,27 @@ export const kHello = {
   login: false,
 };
 
+/** A mission of two drones. */
+export const kMission = {
+  type: 'mission',
+  epoch: 1,
+  fleet: 'SIM',
+  mission: { name: 'test', drones: [{ id: 'd1' }, { id: 'd2' }] },
+  display: {
+    field: { length_x_m: 3, length_y_m: 3, origin_m: [0, 0], yaw_rad: 0 },
+    dt_s: 0.02,
+    separation_m: 0.2,
+    wall_distance_m: 0.17,
+    barrier_radius_m: 0.2,
+    speed_limit_m_s: 0.3,
+    footprint_radius_m: 0.3,
+    sigma_min_m: 0.15,
+    can_change_speed: true,
+    can_pause: true,
+    most_speed: 20,
+  },
+};
+
 /** A world whose time the test turns. */
 export class FakeWorld implements World {
   now = 0;
