@@ -13,6 +13,7 @@ namespace {
 
 constexpr double kSampleEveryS = 1.0;
 constexpr double kLookEveryS = 0.2;
+constexpr double kRounding = 1e-6;  // of a time
 
 /// How many ticks make up about so long; at least one.
 std::size_t ticks_in(double time_s, double tick_s) {
@@ -50,7 +51,6 @@ class AreaFutures {
     worst_age_s_ = std::max(worst_age_s_, state.age_s);
     const bool is_covered = state.asked > 0.0 && state.achieved >= kCoveredShare * state.asked;
     if (is_covered && !future.covered_in_s) future.covered_in_s = in_s;
-    constexpr double kRounding = 1e-6;  // what is seen just now is as old as the future
     const bool is_seen = state.age_s <= in_s + kRounding;
     if (is_seen && !future.seen_in_s) future.seen_in_s = in_s;
   }
@@ -149,9 +149,13 @@ class FutureFlight {
     const double in_s = static_cast<double>(n) * tick_s_;
     ghosts_.note(n, fleet_.observations());
     if (n % ticks_in(kLookEveryS, tick_s_) == 0 || n == ticks_) look(in_s);
-    if (n % ticks_in(kSampleEveryS, tick_s_) == 0 || n == ticks_)
-      out_.samples.push_back(
-          {in_s, snapshot_.metric, snapshot_.metric_percent, areas_.worst_age_s(), snapshot_.active});
+    if (in_s > next_sample_s_ - kRounding || n == ticks_) sample(in_s);
+  }
+
+  /// At the first tick of every second.
+  void sample(double in_s) {
+    out_.samples.push_back({in_s, snapshot_.metric, snapshot_.metric_percent, areas_.worst_age_s(), snapshot_.active});
+    next_sample_s_ = std::floor(in_s / kSampleEveryS + kRounding) * kSampleEveryS + kSampleEveryS;
   }
 
   void look(double in_s) {
@@ -163,6 +167,7 @@ class FutureFlight {
   double now_s_;
   double tick_s_;
   std::size_t ticks_;
+  double next_sample_s_ = 0.0;
   PredictedFleet fleet_;
   swarm::SwarmState state_;
   swarm::Snapshot snapshot_;

@@ -61,7 +61,7 @@ struct AreaOutlook {
 struct Outlook {
   double seconds = 0.0;
   double tick_s = 0.0;                 ///< of the model
-  std::vector<OutlookSample> samples;  ///< one a second, the first of now
+  std::vector<OutlookSample> samples;  ///< at the first tick of every second, the first of now
   std::vector<AreaOutlook> areas;      ///< in the mission's order, clusters first
   /// Of two drones in the air, at any time; infinite without such a pair.
   double least_pair_m = std::numeric_limits<double>::infinity();

@@ -84,6 +84,20 @@ TEST_F(PreviewTest, The_samples_go_from_now_to_the_end_second_by_second) {
   EXPECT_NEAR(outlook.samples.front().metric_percent, flight.snapshot().metric_percent, 0.5);
 }
 
+TEST_F(PreviewTest, Every_second_has_its_sample_whatever_the_tick) {
+  mission.control.rate_hz = 3.0;  // a tick of a third of a second
+  ObedientFleet slow_fleet(starts_in_field(mission));
+  VirtualFlight slow(mission, slow_fleet, nullptr, [] { return std::chrono::nanoseconds{}; });
+  slow.step();
+  const PreviewStart from{slow.state(), watch, predicted_vehicle(mission, 0.0), 0.3};
+  const Outlook outlook = look_into_future(from, {}, 7.5, never).value();
+  ASSERT_EQ(outlook.samples.size(), 9U);  // of 0, 1, ..., 7 s, and of the end
+  for (std::size_t n = 0; n < 8; ++n) {
+    EXPECT_GE(outlook.samples[n].in_s, static_cast<double>(n) - 1e-6);
+    EXPECT_LT(outlook.samples[n].in_s, static_cast<double>(n) + outlook.tick_s);
+  }
+}
+
 TEST_F(PreviewTest, An_area_is_covered_when_it_first_has_nine_tenths_of_what_is_asked) {
   const Outlook outlook = future();
   for (const AreaOutlook& one : outlook.areas) {
