@@ -10,7 +10,7 @@ import pathlib
 import re
 import sys
 
-GROUPS = {"build", "run", "test"}
+GROUPS = {"build", "run", "ros", "test"}
 
 
 def listed(root):

@@ -158,6 +158,9 @@ CLI::App* add_serve(CLI::App& program, ServeOptions& options) {
   command->add_flag("--afresh", options.afresh, "Forget what an earlier run left in --state");
   command->add_option("--page", options.page, "Folder of the console's page instead of the built one")
       ->check(not_empty());
+  command->add_flag("--ros", options.ros, "Show it over ROS 1 (RViz) as well, and take targets from there");
+  command->add_option("--ros-role", options.ros_role,
+                      "What may be asked for over ROS: viewer (nothing), operator (the default)");
   add_settings(command, options.settings);
   command->footer(
       "Exit codes: 0 ended by Ctrl-C, 2 bad arguments or mission file, 3 a component is missing or failed.");

@@ -14,6 +14,7 @@
 #include "vigil/apps/fleet_choice.hpp"
 #include "vigil/apps/interrupt.hpp"
 #include "vigil/apps/mission_choice.hpp"
+#include "vigil/apps/ros_side.hpp"
 #include "vigil/runtime/controller_setup.hpp"
 #include "vigil/runtime/live_mission.hpp"
 #include "vigil/runtime/mission_error.hpp"
@@ -42,6 +43,9 @@ void check_options(const ServeOptions& options) {
                               runtime::on_one_line(options.address, 60)));
   if (options.certificate.empty() != options.key.empty())
     throw Failure(kBadInput, "--certificate and --key belong together; give both, or none");
+  if (!console::role_of(options.ros_role))
+    throw Failure(kBadInput, fmt::format("--ros-role {}: is not known; must be: viewer, operator",
+                                         runtime::on_one_line(options.ros_role, 60)));
 }
 
 /// Of each mission that one program flies a folder: DIR, DIR-2, ...
@@ -81,8 +85,9 @@ std::shared_ptr<runtime::LiveMission> make_flight(const runtime::Mission& missio
   if (saved != nullptr) start = {swarm::Intent::kHold, saved->past};
   std::unique_ptr<runtime::VirtualFleet> fleet =
       saved == nullptr ? simulated_fleet(mission) : simulated_fleet(mission, starts_of(*saved));
-  return std::make_shared<runtime::LiveMission>(mission, std::move(fleet), recorder_for(mission, options, start, epoch),
-                                                start, epoch);
+  runtime::VirtualFleet* const world = fleet.get();
+  return std::make_shared<runtime::LiveMission>(mission, std::move(fleet), world,
+                                                recorder_for(mission, options, start, epoch), start, epoch);
 }
 
 /// What an earlier run left of the same mission; nothing where it left nothing.
@@ -128,8 +133,12 @@ int run(const ServeOptions& options, const std::string& version) {
     saved = left_by_an_earlier_run(*store, mission);
     if (saved) mission = runtime::parse_mission(saved->targets_text, in_words(options.state));
   }
+  std::optional<RosSide> ros;
+  if (options.ros) ros.emplace(*console::role_of(options.ros_role));
+  console::ServerOptions served = server_options(options, version);
+  if (ros) served.overhear = [&ros](const console::DeskNews& news) { ros->overhear(news); };
   console::Server server(
-      server_options(options, version),
+      served,
       [&options](const runtime::Mission& one, std::uint32_t epoch, const runtime::SavedFlight* of) {
         return make_flight(one, options, epoch, of);
       },
@@ -138,7 +147,9 @@ int run(const ServeOptions& options, const std::string& version) {
   fmt::print("vigil: {} at {}\n", mission.name, server.url());
   if (saved) fmt::print("vigil: goes on where it was; drones in the air hold until somebody resumes them\n");
   std::fflush(stdout);
+  if (ros) ros->attach(server);
   server.run(mission, saved ? &*saved : nullptr, is_interrupted);
+  if (ros) ros->release();
   return kDone;
 }
 
@@ -150,6 +161,8 @@ int serve(const ServeOptions& options, const std::string& version) {
     return run(options, version);
   } catch (const console::SetupError& error) {
     throw Failure(kBadInput, error.what());
+  } catch (const ros_bridge::RosError& error) {
+    throw Failure(kComponentFailed, error.what());
   } catch (const runtime::SavedFlightError& error) {
     throw Failure(kComponentFailed, error.what());
   }

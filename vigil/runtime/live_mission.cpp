@@ -29,13 +29,13 @@ void run(const std::stop_token& stop, ControlLoop& loop) {
 
 }  // namespace
 
-LiveMission::LiveMission(Mission mission, std::unique_ptr<VirtualFleet> fleet, std::unique_ptr<QueuedRecorder> recorder,
-                         const FlightStart& start, std::uint32_t epoch)
+LiveMission::LiveMission(Mission mission, std::unique_ptr<Fleet> fleet, VirtualFleet* world,
+                         std::unique_ptr<QueuedRecorder> recorder, const FlightStart& start, std::uint32_t epoch)
     : mission_(std::move(mission)),
       fleet_(std::move(fleet)),
       recorder_(std::move(recorder)),
       epoch_(epoch),
-      flight_(mission_, *fleet_, fleet_.get(), recorder_.get(), start),
+      flight_(mission_, *fleet_, world, recorder_.get(), start),
       loop_(flight_, mission_.drones.size()) {}
 
 LiveMission::~LiveMission() {

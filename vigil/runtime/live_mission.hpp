@@ -13,9 +13,10 @@ namespace vigil::runtime {
 /// A mission that is being flown, in real time, by a control thread of its own.
 class LiveMission {
  public:
-  /// `epoch` tells missions apart that one program flies one after the other. The recorder may be null.
-  LiveMission(Mission mission, std::unique_ptr<VirtualFleet> fleet, std::unique_ptr<QueuedRecorder> recorder,
-              const FlightStart& start, std::uint32_t epoch);
+  /// `world`: the fleet where it is a simulated one, otherwise null. `epoch` tells missions apart that one program
+  /// flies one after the other. The recorder may be null.
+  LiveMission(Mission mission, std::unique_ptr<Fleet> fleet, VirtualFleet* world,
+              std::unique_ptr<QueuedRecorder> recorder, const FlightStart& start, std::uint32_t epoch);
   /// Ends the control thread.
   ~LiveMission();
   LiveMission(const LiveMission&) = delete;
@@ -35,7 +36,7 @@ class LiveMission {
 
  private:
   Mission mission_;
-  std::unique_ptr<VirtualFleet> fleet_;
+  std::unique_ptr<Fleet> fleet_;
   std::unique_ptr<QueuedRecorder> recorder_;
   std::uint32_t epoch_;
   LiveFlight flight_;

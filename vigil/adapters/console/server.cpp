@@ -334,6 +334,7 @@ class Server::Sockets {
         rest_(hub_, gate_, page_),
         desk_(
             std::move(make_flight), [this](DeskNews news) { tell_hub(std::move(news)); }, std::move(store)),
+        overhear_(options.overhear),
         address_(options.address) {
     listen(endpoint_of(options));
   }
@@ -356,6 +357,16 @@ class Server::Sockets {
     desk_thread_.reset();
     desk_.end();
   }
+
+  void command(ClientMessage message, Role role, std::string by, std::function<void(const std::string&)> answer) {
+    net::post(context_, [this, message = std::move(message), role, by = std::move(by), answer = std::move(answer)] {
+      hub_.command(message, role, by, [answer](const Json& reply) {
+        answer(reply.at("type") == "refused" ? reply.at("reason").get<std::string>() : std::string());
+      });
+    });
+  }
+
+  void warn(std::string text) { tell_hub(DeskTrouble{std::move(text)}); }
 
  private:
   void listen(const Tcp::endpoint& endpoint) {
@@ -405,6 +416,7 @@ class Server::Sockets {
   }
 
   void tell_hub(DeskNews news) {
+    if (overhear_) overhear_(news);
     net::post(context_, [this, news = std::make_shared<DeskNews>(std::move(news))] { hub_.take(std::move(*news)); });
   }
 
@@ -448,6 +460,7 @@ class Server::Sockets {
   Host host_{hub_, rest_, gate_, seats_};
   Desk desk_;
   std::optional<DeskThread> desk_thread_;
+  std::function<void(const DeskNews&)> overhear_;
   std::string address_;
 };
 
@@ -464,5 +477,12 @@ void Server::run(const runtime::Mission& mission, const runtime::SavedFlight* sa
                  const std::function<bool()>& is_over) {
   sockets_->run(mission, saved, is_over);
 }
+
+void Server::command(ClientMessage message, Role role, std::string by,
+                     std::function<void(const std::string& refusal)> answer) {
+  sockets_->command(std::move(message), role, std::move(by), std::move(answer));
+}
+
+void Server::warn(std::string text) { sockets_->warn(std::move(text)); }
 
 }  // namespace vigil::console

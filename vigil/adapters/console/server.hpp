@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "vigil/adapters/console/access.hpp"
+#include "vigil/adapters/console/client_message.hpp"
 #include "vigil/adapters/console/desk.hpp"
 
 namespace vigil::console {
@@ -23,6 +24,7 @@ struct ServerOptions {
   std::filesystem::path page;  ///< the folder of the built page
   std::string program;         ///< "vigil 0.1.0"
   std::string recording_folder;
+  std::function<void(const DeskNews&)> overhear;  ///< told of what the desk does, on its thread; may be empty
 };
 
 /// The console's server: HTTP and WebSockets for whoever looks at a flight, and the desk behind it. Beside the control
@@ -45,6 +47,14 @@ class Server {
   /// Flies the mission and serves until `is_over` says so, which is asked a few times a second. saved: what an earlier
   /// run left, or null. Throws what making the flight throws, and at the end what its recorder throws.
   void run(const runtime::Mission& mission, const runtime::SavedFlight* saved, const std::function<bool()>& is_over);
+
+  // Any thread, while run() does its work; afterwards nothing comes of it.
+  /// A command that did not come through the sockets. `answer` is called once, on the sockets' thread, with why it was
+  /// refused; empty: it was followed.
+  void command(ClientMessage message, Role role, std::string by,
+               std::function<void(const std::string& refusal)> answer);
+  /// Something that operators should know of.
+  void warn(std::string text);
 
  private:
   class Sockets;

@@ -1,0 +1,10 @@
+#pragma once
+
+#include <string>
+
+namespace vigil::ros_bridge {
+
+/// The id with whatever ROS does not allow in a name replaced by _, behind a letter.
+[[nodiscard]] std::string ros_name(const std::string& id);
+
+}  // namespace vigil::ros_bridge

@@ -1,0 +1,34 @@
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <stdexcept>
+#include <string>
+
+namespace vigil::ros_bridge {
+
+/// This program was built without ROS, or no ROS master answers.
+class RosError : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+/// This process as a ROS node. One at a time, and before anything else of this room; it outlives all of it.
+///
+/// Connections between nodes live on when the master dies. A master that starts anew knows nobody: the session looks
+/// for it once a second, registers everything again, and learns who else is there, while all connections stay.
+class Session {
+ public:
+  /// `tell`: told in words when the master goes and when it is back; on the session's thread. Throws RosError where no
+  /// master answers.
+  Session(const std::string& node, std::function<void(const std::string&)> tell);
+  ~Session();
+  Session(const Session&) = delete;
+  Session& operator=(const Session&) = delete;
+
+ private:
+  class Watch;
+  std::unique_ptr<Watch> watch_;
+};
+
+}  // namespace vigil::ros_bridge
