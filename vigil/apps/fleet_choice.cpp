@@ -1,5 +1,7 @@
 #include "vigil/apps/fleet_choice.hpp"
 
+#include "vigil/adapters/ros/crazyswarm_link.hpp"
+#include "vigil/adapters/ros/ros_fleet.hpp"
 #include "vigil/adapters/sim/simulated_fleet.hpp"
 #include "vigil/runtime/mission_setup.hpp"
 
@@ -105,6 +107,19 @@ std::unique_ptr<runtime::VirtualFleet> simulated_fleet(const runtime::Mission& m
     parameters.stays_down.push_back(start.is_down);
   }
   return std::make_unique<sim::SimulatedFleet>(parameters, places);
+}
+
+std::unique_ptr<runtime::Fleet> crazyswarm_fleet(const runtime::Mission& mission, bool positions_by_tf,
+                                                 std::function<void(const std::string&)> tell) {
+  const runtime::VehicleSection& vehicle = mission.simulation.vehicle;
+  ros_bridge::CrazyswarmSetup setup{.drones = {},
+                                    .positions_by_tf = positions_by_tf,
+                                    .altitude_m = vehicle.altitude_m,
+                                    .take_off_s = vehicle.take_off_s,
+                                    .landing_s = vehicle.landing_s,
+                                    .tell = std::move(tell)};
+  for (const runtime::DroneEntry& drone : mission.drones) setup.drones.push_back(drone.id);
+  return std::make_unique<ros_bridge::RosFleet>(mission, ros_bridge::link_to_crazyswarm(setup));
 }
 
 }  // namespace vigil::apps

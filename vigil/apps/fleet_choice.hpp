@@ -1,7 +1,9 @@
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <span>
+#include <string>
 
 #include "vigil/runtime/fleet.hpp"
 #include "vigil/runtime/mission.hpp"
@@ -10,6 +12,10 @@ namespace vigil::apps {
 
 /// The mission's drones, simulated as its `simulation` section says.
 [[nodiscard]] std::unique_ptr<runtime::VirtualFleet> simulated_fleet(const runtime::Mission& mission);
+
+/// The mission's drones as Crazyswarm flies them. Needs a ros_bridge::Session. `tell`: told what did not work.
+[[nodiscard]] std::unique_ptr<runtime::Fleet> crazyswarm_fleet(const runtime::Mission& mission, bool positions_by_tf,
+                                                               std::function<void(const std::string&)> tell);
 
 /// Where a drone begins, whatever the mission says.
 struct DroneStart {

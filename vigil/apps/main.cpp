@@ -11,6 +11,7 @@
 #include "vigil/apps/campaign_command.hpp"
 #include "vigil/apps/check_command.hpp"
 #include "vigil/apps/failure.hpp"
+#include "vigil/apps/laboratory_command.hpp"
 #include "vigil/apps/margins_command.hpp"
 #include "vigil/apps/replay_command.hpp"
 #include "vigil/apps/report_command.hpp"
@@ -30,6 +31,7 @@ struct Arguments {
   ReplayOptions replay;
   ReportArguments report;
   ServeOptions serve;
+  LaboratoryOptions laboratory;
 };
 
 void add_settings(CLI::App* command, std::vector<std::string>& settings) {
@@ -139,7 +141,8 @@ CLI::App* add_replay(CLI::App& program, ReplayOptions& options) {
 CLI::App* add_serve(CLI::App& program, ServeOptions& options) {
   CLI::App* command = program.add_subcommand("serve", "Fly a mission in real time, with the operator's console");
   command->add_option("MISSION", options.mission, "The mission file (YAML)")->required();
-  command->add_option("--fleet", options.fleet, "Which drones: sim (simulated, the default)");
+  command->add_option("--fleet", options.fleet,
+                      "Which drones: sim (simulated, the default), ros (Crazyswarm over ROS 1; implies --ros)");
   command->add_option("--port", options.port, "Where the console is served (default 8080; 0: any free port)");
   command->add_option("--address", options.address,
                       "The address to listen at (default 127.0.0.1: this machine only); others need --tokens");
@@ -159,8 +162,22 @@ CLI::App* add_serve(CLI::App& program, ServeOptions& options) {
   command->add_option("--page", options.page, "Folder of the console's page instead of the built one")
       ->check(not_empty());
   command->add_flag("--ros", options.ros, "Show it over ROS 1 (RViz) as well, and take targets from there");
+  command->add_flag("--ros-tf", options.ros_tf, "With --fleet ros: positions from /tf instead of vicon_bridge");
   command->add_option("--ros-role", options.ros_role,
                       "What may be asked for over ROS: viewer (nothing), operator (the default)");
+  add_settings(command, options.settings);
+  command->footer(
+      "Exit codes: 0 ended by Ctrl-C, 2 bad arguments or mission file, 3 a component is missing or failed.");
+  return command;
+}
+
+CLI::App* add_laboratory(CLI::App& program, LaboratoryOptions& options) {
+  CLI::App* command = program.add_subcommand(
+      "laboratory",
+      "Stand in for Crazyswarm and vicon_bridge over ROS 1, with simulated drones, for serve --fleet ros");
+  command->add_option("MISSION", options.mission, "The mission file (YAML) that is served")->required();
+  command->add_option("--only", options.only, "One of the two nodes: crazyswarm, vicon");
+  command->add_option("--out", options.out, "File for the judgement of what the drones really did")->check(not_empty());
   add_settings(command, options.settings);
   command->footer(
       "Exit codes: 0 ended by Ctrl-C, 2 bad arguments or mission file, 3 a component is missing or failed.");
@@ -179,6 +196,7 @@ int run(int argc, char** argv) {
   const CLI::App* report_command = add_report(program, arguments.report);
   const CLI::App* replay_command = add_replay(program, arguments.replay);
   const CLI::App* serve_command = add_serve(program, arguments.serve);
+  const CLI::App* laboratory_command = add_laboratory(program, arguments.laboratory);
   const CLI::App* schema_command =
       program.add_subcommand("schema", "Print the JSON Schema of mission files, for editors");
   program.footer(exit_codes("1 a run of a campaign broke a rule, ", true) +
@@ -197,6 +215,7 @@ int run(int argc, char** argv) {
   if (report_command->parsed()) return report(arguments.report);
   if (replay_command->parsed()) return replay(arguments.replay);
   if (serve_command->parsed()) return serve(arguments.serve, VIGIL_VERSION);
+  if (laboratory_command->parsed()) return laboratory(arguments.laboratory);
   if (schema_command->parsed()) return print_schema();
   std::fputs(program.help().c_str(), stdout);
   return kBadInput;

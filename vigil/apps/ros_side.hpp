@@ -25,6 +25,8 @@ class RosSide {
   /// From now on wishes are taken, until the server's run() is over; then release().
   void attach(console::Server& server);
   void release();
+  /// Something that operators should know of. Any thread.
+  void warn(const std::string& text);
 
  private:
   using Answer = ros_bridge::OperatorWishes::Answer;
@@ -35,7 +37,6 @@ class RosSide {
   [[nodiscard]] std::string begin_cluster();
   void clear_targets(Answer answer);
   void wish(swarm::CommandKind kind, const std::string& drone, Answer answer);
-  void warn(const std::string& text);
 
   console::Role role_;
   std::mutex mutex_;

@@ -33,8 +33,8 @@ std::string in_words(const fs::path& path) {
 }
 
 void check_options(const ServeOptions& options) {
-  if (options.fleet != "sim")
-    throw Failure(kBadInput, fmt::format("--fleet {}: is not known; must be: sim (simulated drones)",
+  if (options.fleet != "sim" && options.fleet != "ros")
+    throw Failure(kBadInput, fmt::format("--fleet {}: is not known; must be: sim (simulated drones), ros (Crazyswarm)",
                                          runtime::on_one_line(options.fleet, 60)));
   if (!console::is_loopback(options.address) && options.tokens.empty())
     throw Failure(kBadInput,
@@ -78,11 +78,21 @@ std::vector<DroneStart> starts_of(const runtime::SavedFlight& saved) {
   return starts;
 }
 
+/// `saved`: what an earlier run left, or null. `ros`: there where the fleet is "ros".
 std::shared_ptr<runtime::LiveMission> make_flight(const runtime::Mission& mission, const ServeOptions& options,
-                                                  std::uint32_t epoch, const runtime::SavedFlight* saved) {
+                                                  std::uint32_t epoch, const runtime::SavedFlight* saved,
+                                                  RosSide* ros) {
   runtime::FlightStart start{runtime::first_intent(mission), {}};
   // After a restart the drones hover until somebody has looked, and resumes.
   if (saved != nullptr) start = {swarm::Intent::kHold, saved->past};
+  if (options.fleet == "ros") {
+    // What stands there stays down until somebody lets it take off; what is in the air hovers until somebody resumes
+    // it.
+    if (saved == nullptr) start.first_intent = swarm::Intent::kStayDown;
+    auto fleet = crazyswarm_fleet(mission, options.ros_tf, [ros](const std::string& text) { ros->warn(text); });
+    return std::make_shared<runtime::LiveMission>(mission, std::move(fleet), nullptr,
+                                                  recorder_for(mission, options, start, epoch), start, epoch);
+  }
   std::unique_ptr<runtime::VirtualFleet> fleet =
       saved == nullptr ? simulated_fleet(mission) : simulated_fleet(mission, starts_of(*saved));
   runtime::VirtualFleet* const world = fleet.get();
@@ -134,13 +144,13 @@ int run(const ServeOptions& options, const std::string& version) {
     if (saved) mission = runtime::parse_mission(saved->targets_text, in_words(options.state));
   }
   std::optional<RosSide> ros;
-  if (options.ros) ros.emplace(*console::role_of(options.ros_role));
+  if (options.ros || options.fleet == "ros") ros.emplace(*console::role_of(options.ros_role));
   console::ServerOptions served = server_options(options, version);
   if (ros) served.overhear = [&ros](const console::DeskNews& news) { ros->overhear(news); };
   console::Server server(
       served,
-      [&options](const runtime::Mission& one, std::uint32_t epoch, const runtime::SavedFlight* of) {
-        return make_flight(one, options, epoch, of);
+      [&options, &ros](const runtime::Mission& one, std::uint32_t epoch, const runtime::SavedFlight* of) {
+        return make_flight(one, options, epoch, of, ros ? &*ros : nullptr);
       },
       store);
   catch_interrupts();

@@ -22,6 +22,7 @@ struct ServeOptions {
   bool afresh = false;                ///< forget what an earlier run left
   std::filesystem::path page;         ///< empty: where the build or the installation has it
   std::vector<std::string> settings;  ///< key=value
+  bool ros_tf = false;                ///< fleet "ros": positions by tf instead of vicon_bridge
   bool ros = false;                   ///< show it over ROS, and take wishes from there; always so where fleet is "ros"
   std::string ros_role = "operator";  ///< what whoever reaches the ROS master may do
 };

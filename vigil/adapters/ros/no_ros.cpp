@@ -1,6 +1,8 @@
 // What takes the place of the files that speak to roscpp where there is none: a session cannot begin, and without one
 // nothing else is asked for.
+#include "vigil/adapters/ros/crazyswarm_link.hpp"
 #include "vigil/adapters/ros/displays.hpp"
+#include "vigil/adapters/ros/laboratory_link.hpp"
 #include "vigil/adapters/ros/operator_topics.hpp"
 #include "vigil/adapters/ros/session.hpp"
 
@@ -9,6 +11,8 @@ namespace vigil::ros_bridge {
 class Session::Watch {};
 class Displays::Topics {};
 class OperatorTopics::Inputs {};
+class StandInCrazyswarm::Wire {};
+class StandInVicon::Wire {};
 
 Session::Session(const std::string& /*node*/, std::function<void(const std::string&)> /*tell*/) {
   throw RosError(
@@ -29,5 +33,15 @@ void Displays::show(const std::vector<Diagnosis>& /*diagnoses*/) {}
 
 OperatorTopics::OperatorTopics(OperatorWishes /*wishes*/) {}
 OperatorTopics::~OperatorTopics() = default;
+
+std::unique_ptr<CrazyswarmPort> link_to_crazyswarm(const CrazyswarmSetup& /*setup*/) { return nullptr; }
+
+StandInCrazyswarm::StandInCrazyswarm(const std::vector<std::string>& /*drones*/) {}
+StandInCrazyswarm::~StandInCrazyswarm() = default;
+StandInCrazyswarm::Told StandInCrazyswarm::take(std::size_t /*drone*/) { return {}; }
+void StandInCrazyswarm::show(const std::vector<Point>& /*places*/) {}
+
+StandInVicon::StandInVicon(const std::vector<std::string>& /*drones*/) {}
+StandInVicon::~StandInVicon() = default;
 
 }  // namespace vigil::ros_bridge

@@ -1,0 +1,258 @@
+#include "vigil/adapters/ros/crazyswarm_link.hpp"
+
+#include <atomic>
+#include <chrono>
+#include <condition_variable>
+#include <deque>
+#include <mutex>
+#include <thread>
+#include <utility>
+
+#include <geometry_msgs/TransformStamped.h>
+#include <ros/callback_queue.h>
+#include <ros/ros.h>
+#include <std_srvs/Empty.h>
+#include <tf2_msgs/TFMessage.h>
+
+#include "vigil/adapters/ros/crazyswarm_messages.hpp"
+#include "vigil/adapters/ros/ros_name.hpp"
+
+namespace vigil::ros_bridge {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+using namespace std::chrono_literals;
+
+constexpr auto kStreamEvery = 20ms;
+constexpr std::size_t kMostCalls = 256;
+
+std::string without_slash(const std::string& frame) { return frame.rfind('/', 0) == 0 ? frame.substr(1) : frame; }
+
+/// The newest position of each drone, from ROS' threads to the control thread, which never waits.
+class Sightings {
+ public:
+  explicit Sightings(std::size_t drones) : newest_(drones), taken_(drones) {}
+
+  void add(std::size_t drone, const geometry_msgs::TransformStamped& seen) {
+    const geometry_msgs::Vector3& place = seen.transform.translation;
+    const double now_s = ros::Time::now().toSec();
+    const double stamp_s = seen.header.stamp.toSec();
+    const std::lock_guard<std::mutex> lock(mutex_);
+    const std::uint64_t number = newest_[drone].number + 1;
+    newest_[drone] = {{place.x, place.y, place.z}, stamp_s, now_s, number};
+  }
+
+  Sighting take(std::size_t drone) noexcept {
+    const std::unique_lock<std::mutex> lock(mutex_, std::try_to_lock);
+    if (lock.owns_lock()) taken_[drone] = newest_[drone];
+    return taken_[drone];
+  }
+
+ private:
+  std::mutex mutex_;
+  std::vector<Sighting> newest_;
+  std::vector<Sighting> taken_;  // the control thread's
+};
+
+class CrazyswarmLink final : public CrazyswarmPort {
+ public:
+  explicit CrazyswarmLink(const CrazyswarmSetup& setup)
+      : setup_(setup),
+        sightings_(setup.drones.size()),
+        mine_(setup.drones.size()),
+        set_(setup.drones.size()),
+        connected_(setup.drones.size()) {
+    node_.setCallbackQueue(&queue_);
+    for (const std::string& id : setup_.drones)
+      velocities_.push_back(node_.advertise<crazyswarm::VelocityWorld>(ros_name(id) + "/cmd_velocity_world", 1));
+    listen();
+    spinner_.start();
+    streamer_ = std::thread([this] { stream(); });
+    caller_ = std::thread([this] { make_calls(); });
+  }
+
+  ~CrazyswarmLink() override {
+    is_over_ = true;
+    wake_streamer_.notify_one();
+    wake_caller_.notify_one();
+    streamer_.join();
+    caller_.join();
+    spinner_.stop();
+    queue_.disable();
+  }
+
+  CrazyswarmLink(const CrazyswarmLink&) = delete;
+  CrazyswarmLink& operator=(const CrazyswarmLink&) = delete;
+
+  [[nodiscard]] double now_s() const noexcept override { return ros::Time::now().toSec(); }
+  [[nodiscard]] Sighting newest(std::size_t drone) noexcept override { return sightings_.take(drone); }
+  [[nodiscard]] bool is_connected(std::size_t drone) noexcept override { return connected_[drone]; }
+  void set(std::size_t drone, const Setpoint& setpoint) noexcept override { mine_[drone] = setpoint; }
+
+  void flush() noexcept override {
+    {
+      const std::unique_lock<std::mutex> lock(set_mutex_, std::try_to_lock);
+      if (!lock.owns_lock()) return;  // the streamer copies just now; it gets this with the next tick's
+      set_ = mine_;
+      set_at_ = Clock::now();
+      is_new_ = true;
+    }
+    wake_streamer_.notify_one();
+  }
+
+  [[nodiscard]] bool call(std::size_t drone, VehicleCall call) noexcept override {
+    {
+      const std::unique_lock<std::mutex> lock(calls_mutex_, std::try_to_lock);
+      if (!lock.owns_lock() || calls_.size() >= kMostCalls) return false;
+      if (call == VehicleCall::kEmergency)
+        calls_.emplace_front(drone, call);
+      else
+        calls_.emplace_back(drone, call);
+    }
+    wake_caller_.notify_one();
+    return true;
+  }
+
+ private:
+  void listen() {
+    const ros::TransportHints at_once = ros::TransportHints().tcpNoDelay();
+    if (setup_.positions_by_tf) {
+      positions_.push_back(node_.subscribe<tf2_msgs::TFMessage>(
+          "/tf", 100, [this](const tf2_msgs::TFMessage::ConstPtr& seen) { take(*seen); }, ros::VoidConstPtr(),
+          at_once));
+      return;
+    }
+    for (std::size_t i = 0; i < setup_.drones.size(); ++i) {
+      const std::string name = ros_name(setup_.drones[i]);
+      positions_.push_back(node_.subscribe<geometry_msgs::TransformStamped>(
+          "/vicon/" + name + "/" + name, 1,
+          [this, i](const geometry_msgs::TransformStamped::ConstPtr& seen) { sightings_.add(i, *seen); },
+          ros::VoidConstPtr(), at_once));
+    }
+  }
+
+  void take(const tf2_msgs::TFMessage& seen) {
+    for (const geometry_msgs::TransformStamped& one : seen.transforms) {
+      if (without_slash(one.header.frame_id) != "world") continue;
+      const std::string child = without_slash(one.child_frame_id);
+      for (std::size_t i = 0; i < setup_.drones.size(); ++i)
+        if (child == ros_name(setup_.drones[i])) sightings_.add(i, one);
+    }
+  }
+
+  void stream() {
+    std::vector<Setpoint> setpoints(setup_.drones.size());
+    auto next = Clock::now();
+    while (!is_over_) {
+      Clock::time_point set_at;
+      {
+        std::unique_lock<std::mutex> lock(set_mutex_);
+        wake_streamer_.wait_until(lock, next, [this] { return is_new_ || is_over_; });
+        is_new_ = false;
+        setpoints = set_;
+        set_at = set_at_;
+      }
+      next = Clock::now() + kStreamEvery;
+      send(setpoints, std::chrono::duration<double>(Clock::now() - set_at).count() <= kStandsForS);
+    }
+  }
+
+  void send(const std::vector<Setpoint>& setpoints, bool stand) {
+    crazyswarm::VelocityWorld message;
+    message.header.frame_id = "world";
+    message.header.stamp = ros::Time::now();
+    for (std::size_t i = 0; i < setpoints.size(); ++i) {
+      connected_[i] = velocities_[i].getNumSubscribers() > 0;
+      if (!setpoints[i].is_streamed) continue;
+      const Point velocity = stand ? setpoints[i].velocity_m_s : Point{};
+      message.vel.x = velocity.x;
+      message.vel.y = velocity.y;
+      message.vel.z = velocity.z;
+      velocities_[i].publish(message);
+    }
+  }
+
+  void make_calls() {
+    while (!is_over_) {
+      std::unique_lock<std::mutex> lock(calls_mutex_);
+      wake_caller_.wait_for(lock, 100ms, [this] { return !calls_.empty() || is_over_; });
+      if (calls_.empty() || is_over_) continue;
+      const auto [drone, call] = calls_.front();
+      calls_.pop_front();
+      lock.unlock();
+      make(setup_.drones[drone], call);
+    }
+  }
+
+  void make(const std::string& id, VehicleCall call) {
+    switch (call) {
+      case VehicleCall::kTakeOff:
+        ask(id, "takeoff", height_request<crazyswarm::TakeoffRequest>(setup_.altitude_m, setup_.take_off_s));
+        return;
+      case VehicleCall::kLand: {
+        crazyswarm::NotifySetpointsStopRequest let_go;
+        let_go.remainValidMillisecs = 100;
+        ask(id, "notify_setpoints_stop", let_go);
+        ask(id, "land", height_request<crazyswarm::LandRequest>(0.0, setup_.landing_s));
+        return;
+      }
+      case VehicleCall::kEmergency: {
+        std_srvs::Empty nothing;
+        report(id, "emergency", ros::service::call("/" + ros_name(id) + "/emergency", nothing));
+        return;
+      }
+    }
+  }
+
+  template <typename Request>
+  static Request height_request(double height_m, double duration_s) {
+    Request request;
+    request.height = static_cast<float>(height_m);
+    request.duration = ros::Duration(duration_s);
+    return request;
+  }
+
+  template <typename Request>
+  void ask(const std::string& id, const std::string& service, const Request& request) {
+    using Response = crazyswarm::EmptyResponse<Request>;
+    Response response;
+    ros::ServiceClient client = node_.serviceClient<Request, Response>("/" + ros_name(id) + "/" + service);
+    report(id, service, client.call(request, response));
+  }
+
+  void report(const std::string& id, const std::string& service, bool is_done) const {
+    if (!is_done)
+      setup_.tell(id + ": Crazyswarm does not answer to " + service + "; it is asked again while it matters");
+  }
+
+  CrazyswarmSetup setup_;
+  Sightings sightings_;
+  ros::CallbackQueue queue_;
+  ros::NodeHandle node_{"/"};
+  std::vector<ros::Subscriber> positions_;
+  std::vector<ros::Publisher> velocities_;
+  ros::AsyncSpinner spinner_{1, &queue_};
+  std::atomic<bool> is_over_{false};
+
+  std::vector<Setpoint> mine_;  // the control thread's
+  std::mutex set_mutex_;
+  std::condition_variable wake_streamer_;
+  std::vector<Setpoint> set_;
+  Clock::time_point set_at_{};
+  bool is_new_ = false;
+  std::vector<std::atomic<bool>> connected_;
+  std::thread streamer_;
+
+  std::mutex calls_mutex_;
+  std::condition_variable wake_caller_;
+  std::deque<std::pair<std::size_t, VehicleCall>> calls_;
+  std::thread caller_;
+};
+
+}  // namespace
+
+std::unique_ptr<CrazyswarmPort> link_to_crazyswarm(const CrazyswarmSetup& setup) {
+  return std::make_unique<CrazyswarmLink>(setup);
+}
+
+}  // namespace vigil::ros_bridge

@@ -1,0 +1,47 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+#include "vigil/adapters/ros/scene.hpp"
+
+namespace vigil::ros_bridge {
+
+/// A position as the tracker sent it: world frame, seconds of the clock of Port::now_s().
+struct Sighting {
+  Point place;
+  double measured_s = 0.0;  ///< by the tracker's stamp, which may be nonsense
+  double received_s = 0.0;
+  std::uint64_t number = 0;  ///< of this drone's, counted from 1; 0: none yet
+};
+
+/// What is streamed to one drone.
+struct Setpoint {
+  bool is_streamed = false;
+  Point velocity_m_s;
+};
+
+enum class VehicleCall : std::uint8_t { kTakeOff, kLand, kEmergency };
+
+/// Drones behind vicon_bridge (or tf) and Crazyswarm, as the control thread meets them: nothing here waits.
+class CrazyswarmPort {
+ public:
+  virtual ~CrazyswarmPort() = default;
+
+  /// Of the clock that ROS stamps go by.
+  [[nodiscard]] virtual double now_s() const noexcept = 0;
+  /// The newest that arrived; number 0 where nothing has.
+  [[nodiscard]] virtual Sighting newest(std::size_t drone) noexcept = 0;
+  /// Whether Crazyswarm listens to this drone's setpoints.
+  [[nodiscard]] virtual bool is_connected(std::size_t drone) noexcept = 0;
+  /// From the next flush() on. A setpoint stands, and is sent again and again, until the next; where flush() is not
+  /// called for kStandsForS it becomes a hover.
+  virtual void set(std::size_t drone, const Setpoint& setpoint) noexcept = 0;
+  virtual void flush() noexcept = 0;
+  /// Asks for a service of the drone; false where it could not be asked now.
+  [[nodiscard]] virtual bool call(std::size_t drone, VehicleCall call) noexcept = 0;
+
+  static constexpr double kStandsForS = 0.25;
+};
+
+}  // namespace vigil::ros_bridge

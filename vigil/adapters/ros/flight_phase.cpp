@@ -1,0 +1,75 @@
+#include "vigil/adapters/ros/flight_phase.hpp"
+
+namespace vigil::ros_bridge {
+namespace {
+
+using swarm::Action;
+using swarm::VehicleMode;
+
+constexpr double kDownForS = 0.3;
+constexpr double kGraceS = 2.0;      ///< on top of how long a manoeuvre takes
+constexpr double kStopAgainS = 0.5;  ///< motors are told to stop until they have
+constexpr double kShareOfAltitude = 0.9;
+constexpr double kFreshS = 0.5;
+
+}  // namespace
+
+bool FlightPhase::is_airborne() const { return mode_ != VehicleMode::kUnknown && mode_ != VehicleMode::kGrounded; }
+
+void FlightPhase::watch(double height_m, double age_s, double now_s) {
+  if (!(age_s < kFreshS)) return;
+  const bool is_low = height_m < parameters_.landed_height_m;
+  if (mode_ == VehicleMode::kUnknown) mode_ = is_low ? VehicleMode::kGrounded : VehicleMode::kFlying;
+  if (mode_ == VehicleMode::kTakingOff) {
+    if (height_m >= kShareOfAltitude * parameters_.altitude_m) mode_ = VehicleMode::kFlying;
+    if (is_low && now_s - called_s_ > parameters_.take_off_s + kGraceS) mode_ = VehicleMode::kGrounded;
+    return;
+  }
+  watch_ground(height_m, now_s);
+}
+
+void FlightPhase::watch_ground(double height_m, double now_s) {
+  if (height_m >= parameters_.landed_height_m) {
+    down_since_s_ = -1.0;
+    // Somebody else started it.
+    if (mode_ == VehicleMode::kGrounded && height_m >= kShareOfAltitude * parameters_.altitude_m)
+      mode_ = VehicleMode::kFlying;
+    return;
+  }
+  if (down_since_s_ < 0.0) down_since_s_ = now_s;
+  if (now_s - down_since_s_ >= kDownForS) mode_ = VehicleMode::kGrounded;
+}
+
+std::optional<VehicleCall> FlightPhase::call_for(Action action, double age_s, double now_s) const {
+  const double since_s = now_s - called_s_;
+  if (action == Action::kStopMotors)
+    return is_airborne() && (mode_ != VehicleMode::kFalling || since_s > kStopAgainS)
+               ? std::optional(VehicleCall::kEmergency)
+               : std::nullopt;
+  if (mode_ == VehicleMode::kGrounded && action == Action::kTakeOff && age_s < kFreshS &&
+      since_s > parameters_.take_off_s + kGraceS)
+    return VehicleCall::kTakeOff;
+  if (mode_ == VehicleMode::kLanding)
+    return since_s > parameters_.landing_s + kGraceS ? std::optional(VehicleCall::kLand) : std::nullopt;
+  const bool flies = mode_ == VehicleMode::kFlying || mode_ == VehicleMode::kTakingOff;
+  if (flies && (action == Action::kLand || age_s > parameters_.land_unseen_s)) return VehicleCall::kLand;
+  return std::nullopt;
+}
+
+void FlightPhase::called(VehicleCall call, double now_s) {
+  called_s_ = now_s;
+  down_since_s_ = -1.0;
+  switch (call) {
+    case VehicleCall::kTakeOff:
+      mode_ = VehicleMode::kTakingOff;
+      return;
+    case VehicleCall::kLand:
+      mode_ = VehicleMode::kLanding;
+      return;
+    case VehicleCall::kEmergency:
+      mode_ = VehicleMode::kFalling;
+      return;
+  }
+}
+
+}  // namespace vigil::ros_bridge

@@ -1,0 +1,54 @@
+#pragma once
+
+#include <optional>
+
+#include "vigil/adapters/ros/crazyswarm_port.hpp"
+#include "vigil/swarm/activity.hpp"
+#include "vigil/swarm/observation.hpp"
+
+namespace vigil::ros_bridge {
+
+struct PhaseParameters {
+  double altitude_m = 0.5;
+  double take_off_s = 2.0;
+  double landing_s = 2.0;
+  double landed_height_m = 0.05;
+  double land_unseen_s = 5.0;  ///< in the air without a position for so long: it is landed
+};
+
+/// What a Crazyflie is doing, which Crazyswarm does not say: told from its height and from what was asked of it. In the
+/// air it flies, until a landing was asked for, by an order or because nobody sees it any more; then it lands, whatever
+/// is ordered, until it is seen on the ground. One thread.
+///
+///     (first sight) -> kGrounded | kFlying          by height
+///     kGrounded  -> kTakingOff                      an order to take off, passed on
+///     kTakingOff -> kFlying | kGrounded             at nine tenths of the altitude | not up in time
+///     kFlying    -> kLanding                        an order to land, or unseen for land_unseen_s
+///     kFlying    -> kGrounded                       seen on the ground for 0.3 s
+///     kLanding   -> kGrounded                       seen on the ground for 0.3 s
+///     any in air -> kFalling -> kGrounded           an order to stop the motors
+class FlightPhase {
+ public:
+  explicit FlightPhase(const PhaseParameters& parameters) : parameters_(parameters) {}
+
+  [[nodiscard]] swarm::VehicleMode mode() const { return mode_; }
+  [[nodiscard]] bool is_airborne() const;
+
+  /// Takes in where the drone is: `height_m` is that of its last believed position, age_s how old that is.
+  void watch(double height_m, double age_s, double now_s);
+
+  /// What has to be asked of the vehicle now for `action`; nothing where it has been asked for lately.
+  [[nodiscard]] std::optional<VehicleCall> call_for(swarm::Action action, double age_s, double now_s) const;
+  /// The call was passed on.
+  void called(VehicleCall call, double now_s);
+
+ private:
+  void watch_ground(double height_m, double now_s);
+
+  PhaseParameters parameters_;
+  swarm::VehicleMode mode_ = swarm::VehicleMode::kUnknown;
+  double called_s_ = -1e9;  ///< when the last call was passed on
+  double down_since_s_ = -1.0;
+};
+
+}  // namespace vigil::ros_bridge

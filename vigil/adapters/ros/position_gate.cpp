@@ -1,0 +1,80 @@
+#include "vigil/adapters/ros/position_gate.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace vigil::ros_bridge {
+namespace {
+
+constexpr double kSmoothingS = 0.05;
+
+bool is_finite(const Point& p) { return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z); }
+
+bool is_same(const Point& a, const Point& b) { return a.x == b.x && a.y == b.y && a.z == b.z; }
+
+double distance(const Point& a, const Point& b) { return std::hypot(a.x - b.x, a.y - b.y, a.z - b.z); }
+
+/// The stamp where it makes sense: not from the future (but for clocks that differ by a little), not from another day.
+double sane_stamp(const Sighting& sighting) {
+  constexpr double kAhead = 0.05;
+  constexpr double kBehind = 10.0;
+  const double age = sighting.received_s - sighting.measured_s;
+  return age >= -kAhead && age <= kBehind ? std::min(sighting.measured_s, sighting.received_s) : sighting.received_s;
+}
+
+}  // namespace
+
+double PositionGate::age_s(double now_s) const {
+  return has_seen_ ? std::max(0.0, now_s - measured_s_) : swarm::DroneObservation::kNever;
+}
+
+PositionGate::Verdict PositionGate::look(const Sighting& sighting, bool is_airborne) {
+  if (sighting.number == number_) return Verdict::kNothingNew;
+  number_ = sighting.number;
+  if (!is_finite(sighting.place)) return Verdict::kNotANumber;
+  if (!is_same(sighting.place, newest_)) {
+    newest_ = sighting.place;
+    changed_s_ = sighting.received_s;
+  }
+  const double measured_s = sane_stamp(sighting);
+  const Verdict verdict = judge(sighting, measured_s, is_airborne);
+  if (verdict == Verdict::kBelieved) believe(sighting.place, measured_s);
+  return verdict;
+}
+
+PositionGate::Verdict PositionGate::judge(const Sighting& sighting, double measured_s, bool is_airborne) {
+  if (sighting.received_s - measured_s > parameters_.late_s) return Verdict::kLate;
+  if (sighting.received_s - changed_s_ > parameters_.frozen_s) return Verdict::kFrozen;
+  if (!has_seen_) return Verdict::kBelieved;
+  const double unseen_s = std::clamp(measured_s - measured_s_, 0.0, parameters_.most_reach_s);
+  if (distance(sighting.place, place_) <= parameters_.slack_m + parameters_.reach_m_s * unseen_s) {
+    settling_since_s_ = -1.0;
+    return Verdict::kBelieved;
+  }
+  return !is_airborne && is_settled(sighting) ? Verdict::kBelieved : Verdict::kJumped;
+}
+
+bool PositionGate::is_settled(const Sighting& sighting) {
+  if (settling_since_s_ < 0.0 || distance(sighting.place, settling_) > parameters_.slack_m) {
+    settling_ = sighting.place;
+    settling_since_s_ = sighting.received_s;
+  }
+  return sighting.received_s - settling_since_s_ >= parameters_.settled_s;
+}
+
+void PositionGate::believe(const Point& place, double measured_s) {
+  const double dt_s = measured_s - measured_s_;
+  constexpr double kLeastStep = 1e-3;
+  if (has_seen_ && dt_s < kLeastStep) return;
+  if (has_seen_) {
+    const double share = dt_s / (dt_s + kSmoothingS);
+    velocity_.x += share * ((place.x - place_.x) / dt_s - velocity_.x);
+    velocity_.y += share * ((place.y - place_.y) / dt_s - velocity_.y);
+    velocity_.z += share * ((place.z - place_.z) / dt_s - velocity_.z);
+  }
+  place_ = place;
+  measured_s_ = measured_s;
+  has_seen_ = true;
+}
+
+}  // namespace vigil::ros_bridge

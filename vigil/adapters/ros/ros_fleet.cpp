@@ -1,0 +1,89 @@
+#include "vigil/adapters/ros/ros_fleet.hpp"
+
+#include <algorithm>
+#include <utility>
+
+#include "vigil/runtime/mission_setup.hpp"
+
+namespace vigil::ros_bridge {
+namespace {
+
+using swarm::VehicleMode;
+
+// How height is kept: as fast as it is wrong, but no faster than this.
+constexpr double kHeightGainPerS = 1.0;
+constexpr double kClimbLimit = 0.3;  ///< m/s
+constexpr double kFreshS = 0.5;
+
+GateParameters gate_parameters(const runtime::Mission& mission) {
+  GateParameters parameters;
+  parameters.reach_m_s = 2.0 * mission.control.speed_limit_m_s + 0.3;
+  return parameters;
+}
+
+PhaseParameters phase_parameters(const runtime::Mission& mission) {
+  const runtime::VehicleSection& vehicle = mission.simulation.vehicle;
+  return {.altitude_m = vehicle.altitude_m,
+          .take_off_s = vehicle.take_off_s,
+          .landing_s = vehicle.landing_s,
+          .landed_height_m = mission.health.landed_height_m};
+}
+
+}  // namespace
+
+RosFleet::RosFleet(const runtime::Mission& mission, std::unique_ptr<CrazyswarmPort> port)
+    : world_(runtime::world_frame(mission)),
+      altitude_m_(mission.simulation.vehicle.altitude_m),
+      port_(std::move(port)),
+      drones_(mission.drones.size(),
+              Drone{PositionGate(gate_parameters(mission)), FlightPhase(phase_parameters(mission))}) {}
+
+void RosFleet::observe(runtime::MissionTime /*now*/, std::span<swarm::DroneObservation> out) noexcept {
+  const double now_s = port_->now_s();
+  for (std::size_t i = 0; i < drones_.size(); ++i) observe(i, now_s, out[i]);
+}
+
+void RosFleet::observe(std::size_t index, double now_s, swarm::DroneObservation& out) noexcept {
+  Drone& drone = drones_[index];
+  drone.gate.look(port_->newest(index), drone.phase.is_airborne());
+  if (port_->is_connected(index)) drone.heard_s = now_s;
+  const Point& place = drone.gate.place();
+  const Point& velocity = drone.gate.velocity();
+  out.age_s = drone.gate.age_s(now_s);
+  drone.phase.watch(place.z, out.age_s, now_s);
+  out.mode = drone.phase.mode();
+  out.link_age_s = drone.heard_s < 0.0 ? swarm::DroneObservation::kNever : now_s - drone.heard_s;
+  if (!drone.gate.has_seen()) return;
+  out.position = world_.point_to_field({place.x, place.y});
+  out.velocity = world_.vector_to_field({velocity.x, velocity.y});
+  out.height_m = place.z;
+}
+
+void RosFleet::order(runtime::MissionTime /*now*/, std::span<const swarm::DroneOrder> orders) noexcept {
+  const double now_s = port_->now_s();
+  for (std::size_t i = 0; i < drones_.size(); ++i) order(i, now_s, orders[i]);
+  port_->flush();
+}
+
+void RosFleet::order(std::size_t index, double now_s, const swarm::DroneOrder& order) noexcept {
+  Drone& drone = drones_[index];
+  const std::optional<VehicleCall> call = drone.phase.call_for(order.action, drone.gate.age_s(now_s), now_s);
+  if (call && port_->call(index, *call)) drone.phase.called(*call, now_s);
+  port_->set(index, setpoint(drone, now_s, order));
+}
+
+/// A drone that flies always has one: what is ordered, or a hover.
+Setpoint RosFleet::setpoint(const Drone& drone, double now_s, const swarm::DroneOrder& order) const noexcept {
+  if (drone.phase.mode() != VehicleMode::kFlying) return {};
+  Setpoint setpoint{true, {}};
+  if (drone.gate.age_s(now_s) > kFreshS) return setpoint;
+  setpoint.velocity_m_s.z =
+      std::clamp(kHeightGainPerS * (altitude_m_ - drone.gate.place().z), -kClimbLimit, kClimbLimit);
+  if (order.action != swarm::Action::kVelocity) return setpoint;
+  const Vec2 velocity = world_.vector_to_world(order.velocity);
+  setpoint.velocity_m_s.x = velocity.x();
+  setpoint.velocity_m_s.y = velocity.y();
+  return setpoint;
+}
+
+}  // namespace vigil::ros_bridge

@@ -1,0 +1,44 @@
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "vigil/adapters/ros/crazyswarm_port.hpp"
+#include "vigil/adapters/ros/flight_phase.hpp"
+#include "vigil/adapters/ros/position_gate.hpp"
+#include "vigil/runtime/fleet.hpp"
+#include "vigil/runtime/mission.hpp"
+
+namespace vigil::ros_bridge {
+
+/// Crazyflies behind the Fleet port. What a drone is told in flight never pauses and never jumps because of a position:
+/// a position that is not believed (PositionGate) is none, and a drone that is not seen is told to hover, and after
+/// PhaseParameters::land_unseen_s to land. Height is kept here; the tick knows the plane alone. The control thread's.
+class RosFleet final : public runtime::Fleet {
+ public:
+  RosFleet(const runtime::Mission& mission, std::unique_ptr<CrazyswarmPort> port);
+
+  [[nodiscard]] std::size_t size() const noexcept override { return drones_.size(); }
+  void observe(runtime::MissionTime now, std::span<swarm::DroneObservation> out) noexcept override;
+  void order(runtime::MissionTime now, std::span<const swarm::DroneOrder> orders) noexcept override;
+
+ private:
+  struct Drone {
+    PositionGate gate;
+    FlightPhase phase;
+    double heard_s = -1.0;  ///< when Crazyswarm last listened; below 0: never
+  };
+
+  void observe(std::size_t index, double now_s, swarm::DroneObservation& out) noexcept;
+  void order(std::size_t index, double now_s, const swarm::DroneOrder& order) noexcept;
+  [[nodiscard]] Setpoint setpoint(const Drone& drone, double now_s, const swarm::DroneOrder& order) const noexcept;
+
+  field::WorldFrame world_;
+  double altitude_m_;
+  std::unique_ptr<CrazyswarmPort> port_;
+  std::vector<Drone> drones_;
+};
+
+}  // namespace vigil::ros_bridge
