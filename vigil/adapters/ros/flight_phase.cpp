@@ -16,6 +16,8 @@ constexpr double kFreshS = 0.5;
 
 bool FlightPhase::is_airborne() const { return mode_ != VehicleMode::kUnknown && mode_ != VehicleMode::kGrounded; }
 
+bool FlightPhase::flies() const { return mode_ == VehicleMode::kFlying || mode_ == VehicleMode::kTakingOff; }
+
 void FlightPhase::watch(double height_m, double age_s, double now_s) {
   if (!(age_s < kFreshS)) return;
   const bool is_low = height_m < parameters_.landed_height_m;
@@ -51,8 +53,7 @@ std::optional<VehicleCall> FlightPhase::call_for(Action action, double age_s, do
     return VehicleCall::kTakeOff;
   if (mode_ == VehicleMode::kLanding)
     return since_s > parameters_.landing_s + kGraceS ? std::optional(VehicleCall::kLand) : std::nullopt;
-  const bool flies = mode_ == VehicleMode::kFlying || mode_ == VehicleMode::kTakingOff;
-  if (flies && (action == Action::kLand || age_s > parameters_.land_unseen_s)) return VehicleCall::kLand;
+  if (flies() && (action == Action::kLand || age_s > parameters_.land_unseen_s)) return VehicleCall::kLand;
   return std::nullopt;
 }
 

@@ -33,6 +33,8 @@ class FlightPhase {
 
   [[nodiscard]] swarm::VehicleMode mode() const { return mode_; }
   [[nodiscard]] bool is_airborne() const;
+  /// Follows setpoints, or climbs to where it will.
+  [[nodiscard]] bool flies() const;
 
   /// Takes in where the drone is: `height_m` is that of its last believed position, age_s how old that is.
   void watch(double height_m, double age_s, double now_s);

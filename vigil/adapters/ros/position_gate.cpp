@@ -28,21 +28,22 @@ double PositionGate::age_s(double now_s) const {
   return has_seen_ ? std::max(0.0, now_s - measured_s_) : swarm::DroneObservation::kNever;
 }
 
-PositionGate::Verdict PositionGate::look(const Sighting& sighting, bool is_airborne) {
+PositionGate::Verdict PositionGate::look(const Sighting& sighting, bool flies) {
   if (sighting.number == number_) return Verdict::kNothingNew;
+  const bool is_first = number_ == 0;
   number_ = sighting.number;
   if (!is_finite(sighting.place)) return Verdict::kNotANumber;
-  if (!is_same(sighting.place, newest_)) {
+  if (is_first || !is_same(sighting.place, newest_)) {
     newest_ = sighting.place;
     changed_s_ = sighting.received_s;
   }
   const double measured_s = sane_stamp(sighting);
-  const Verdict verdict = judge(sighting, measured_s, is_airborne);
+  const Verdict verdict = judge(sighting, measured_s, flies);
   if (verdict == Verdict::kBelieved) believe(sighting.place, measured_s);
   return verdict;
 }
 
-PositionGate::Verdict PositionGate::judge(const Sighting& sighting, double measured_s, bool is_airborne) {
+PositionGate::Verdict PositionGate::judge(const Sighting& sighting, double measured_s, bool flies) {
   if (sighting.received_s - measured_s > parameters_.late_s) return Verdict::kLate;
   if (sighting.received_s - changed_s_ > parameters_.frozen_s) return Verdict::kFrozen;
   if (!has_seen_) return Verdict::kBelieved;
@@ -51,7 +52,7 @@ PositionGate::Verdict PositionGate::judge(const Sighting& sighting, double measu
     settling_since_s_ = -1.0;
     return Verdict::kBelieved;
   }
-  return !is_airborne && is_settled(sighting) ? Verdict::kBelieved : Verdict::kJumped;
+  return !flies && is_settled(sighting) ? Verdict::kBelieved : Verdict::kJumped;
 }
 
 bool PositionGate::is_settled(const Sighting& sighting) {

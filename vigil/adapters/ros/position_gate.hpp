@@ -10,10 +10,11 @@ namespace vigil::ros_bridge {
 struct GateParameters {
   double reach_m_s = 1.0;     ///< no drone is faster
   double slack_m = 0.1;       ///< what a tracker may err from one position to the next
-  double most_reach_s = 1.0;  ///< a drone that was not seen for longer is looked for no farther away
+  double most_reach_s = 0.5;  ///< a drone that was not seen for longer is looked for no farther away
   double late_s = 0.15;       ///< positions that took longer are not used
   double frozen_s = 0.25;     ///< the same bits for so long: the tracker repeats itself
-  double settled_s = 1.0;     ///< on the ground, where people carry drones, a new place is believed after so long
+  double settled_s =
+      1.0;  ///< of a drone that does not fly (people carry it, it falls) a new place is believed after so long
 };
 
 /// Which of a tracker's positions are believed. One that is late, repeated to the last bit, not a number, or farther
@@ -25,7 +26,8 @@ class PositionGate {
 
   explicit PositionGate(const GateParameters& parameters) : parameters_(parameters) {}
 
-  Verdict look(const Sighting& sighting, bool is_airborne);
+  /// `flies`: it follows setpoints, or climbs to where it will.
+  Verdict look(const Sighting& sighting, bool flies);
 
   [[nodiscard]] bool has_seen() const { return has_seen_; }
   [[nodiscard]] const Point& place() const { return place_; }        ///< last believed
@@ -34,7 +36,7 @@ class PositionGate {
   [[nodiscard]] double age_s(double now_s) const;
 
  private:
-  [[nodiscard]] Verdict judge(const Sighting& sighting, double measured_s, bool is_airborne);
+  [[nodiscard]] Verdict judge(const Sighting& sighting, double measured_s, bool flies);
   [[nodiscard]] bool is_settled(const Sighting& sighting);
   void believe(const Point& place, double measured_s);
 

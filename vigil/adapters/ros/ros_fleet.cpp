@@ -17,7 +17,7 @@ constexpr double kFreshS = 0.5;
 
 GateParameters gate_parameters(const runtime::Mission& mission) {
   GateParameters parameters;
-  parameters.reach_m_s = 2.0 * mission.control.speed_limit_m_s + 0.3;
+  parameters.reach_m_s = 1.5 * mission.control.speed_limit_m_s + 0.1;
   return parameters;
 }
 
@@ -45,7 +45,7 @@ void RosFleet::observe(runtime::MissionTime /*now*/, std::span<swarm::DroneObser
 
 void RosFleet::observe(std::size_t index, double now_s, swarm::DroneObservation& out) noexcept {
   Drone& drone = drones_[index];
-  drone.gate.look(port_->newest(index), drone.phase.is_airborne());
+  drone.gate.look(port_->newest(index), drone.phase.flies());
   if (port_->is_connected(index)) drone.heard_s = now_s;
   const Point& place = drone.gate.place();
   const Point& velocity = drone.gate.velocity();

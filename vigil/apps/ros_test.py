@@ -1,0 +1,334 @@
+"""The paper's experiment over ROS topics, seen in the real RViz: ros_test.py PROGRAM SOURCE_FOLDER PICTURES_FOLDER
+
+Starts roscore, RViz on a display of its own (Xvfb), the stand-ins for Crazyswarm and vicon_bridge, and the program; flies,
+looks, clicks, records, and breaks one thing after the other. All of it on this machine alone. One flight, in the order of
+the tests' numbers.
+"""
+
+import contextlib
+import json
+import os
+import pathlib
+import signal
+import socket
+import subprocess
+import sys
+import tempfile
+import time
+import unittest
+import urllib.request
+
+PROGRAM, SOURCE, PICTURES = (pathlib.Path(argument).resolve() for argument in sys.argv[1:4])
+MISSION = SOURCE / "missions/paper.yaml"
+HOME = pathlib.Path(tempfile.mkdtemp(prefix="vigil-ros-"))
+WIDTH, HEIGHT = 1200, 900
+BORDER = (217, 217, 217)
+GREENS = [(0, 255, 0), (0, 191, 31), (0, 128, 61)]
+EVERY_TOPIC = (
+    "/diagnostics", "/vigil/active_drones", "/vigil/cf1/age_s", "/vigil/cf1/path", "/vigil/density", "/vigil/density_grid",
+    "/vigil/drones", "/vigil/metric_percent", "/vigil/oldest_link_s", "/vigil/oldest_position_s",
+    "/vigil/smallest_distance_m", "/vigil/targets", "/vigil/trails", "/vicon/cf1/cf1", "/laboratory/bodies",
+)  # fmt: skip
+
+
+def free_port():
+    with socket.socket() as probe:
+        probe.bind(("127.0.0.1", 0))
+        return probe.getsockname()[1]
+
+
+ROS_PORT, WEB_PORT, DISPLAY = free_port(), free_port(), f":{100 + os.getpid() % 400}"
+ENVIRONMENT = {
+    **os.environ,
+    "ROS_MASTER_URI": f"http://127.0.0.1:{ROS_PORT}", "ROS_IP": "127.0.0.1", "HOME": str(HOME), "ROS_HOME": str(HOME / "ros"),
+    "ROS_LOG_DIR": str(HOME / "log"), "ROS_PACKAGE_PATH": "/usr/share", "LIBGL_ALWAYS_SOFTWARE": "1", "DISPLAY": DISPLAY,
+    "PATH": "/usr/bin:/bin:" + os.environ.get("PATH", ""),
+}  # fmt: skip
+ENVIRONMENT.pop("ROS_HOSTNAME", None)
+RUNNING = {}
+
+
+def start(name, *command):
+    with open(HOME / f"{name}.log", "a") as log:
+        RUNNING[name] = subprocess.Popen([str(part) for part in command], env=ENVIRONMENT, stdout=log, stderr=log)
+
+
+def stop(name, how=signal.SIGINT):
+    process = RUNNING.pop(name, None)
+    if process is None:
+        return
+    process.send_signal(how)
+    try:
+        process.wait(15)
+    except subprocess.TimeoutExpired:
+        process.kill()
+        process.wait()
+
+
+def until(condition, seconds, what):
+    """Waits for a condition of the running system; the last resort of a test that must not guess how long."""
+    end = time.monotonic() + seconds
+    while time.monotonic() < end:
+        with contextlib.suppress(OSError, KeyError, IndexError, TypeError, ValueError):
+            if found := condition():
+                return found
+        time.sleep(0.1)
+    raise AssertionError(f"{what}: not within {seconds} s; drones: {drones()}")
+
+
+def state():
+    with urllib.request.urlopen(f"http://127.0.0.1:{WEB_PORT}/api/state", timeout=5) as answer:
+        return json.load(answer)
+
+
+def drones():
+    with contextlib.suppress(OSError, KeyError, TypeError):
+        return {drone["id"]: (drone["activity"], drone["mode"]) for drone in state()["drones"]}
+    return {}
+
+
+def are(activity, *ids):
+    now = drones()
+    return bool(now) and all(now[one][0] == activity for one in ids)
+
+
+def tool(*command, seconds=30):
+    done = subprocess.run(
+        [str(part) for part in command], env=ENVIRONMENT, capture_output=True, text=True, timeout=seconds, check=False
+    )
+    if done.returncode != 0:
+        raise AssertionError(f"{command}: {done.stdout}{done.stderr}")
+    return done.stdout
+
+
+def service(name):
+    answer = tool("rosservice", "call", name)
+    assert "success: True" in answer, answer
+    return answer
+
+
+def publish(topic, kind, value):
+    """By rostopic, a node of its own, as anybody outside of the program would."""
+    tool("rostopic", "pub", "-1", topic, kind, value)
+
+
+def fault(what):
+    publish("/laboratory/fault", "std_msgs/String", f"data: '{what}'")
+
+
+class Picture:
+    """The display as it is now; places in metres of the mission's world."""
+
+    def __init__(self, name):
+        path = PICTURES / f"{name}.png"
+        tool("import", "-window", "root", path)
+        self.bytes = subprocess.run(
+            ["convert", str(path), "-depth", "8", "rgb:-"], env=ENVIRONMENT, capture_output=True, check=True
+        ).stdout
+        rows = [y for y in range(HEIGHT) if sum(self.is_like(x, y, BORDER) for x in range(0, WIDTH, 3)) > 100]
+        columns = [x for x in range(WIDTH) if sum(self.is_like(x, y, BORDER) for y in range(0, HEIGHT, 3)) > 100]
+        assert rows and columns, "the field's border is not in the picture"
+        self.left, self.right, self.top, self.bottom = columns[0], columns[-1], rows[0], rows[-1]
+
+    def at(self, x, y):
+        begin = 3 * (y * WIDTH + x)
+        return tuple(self.bytes[begin : begin + 3])
+
+    def is_like(self, x, y, colour, tolerance=3):
+        return all(abs(a - b) <= tolerance for a, b in zip(self.at(x, y), colour))
+
+    def pixel(self, place_m):
+        x = self.left + (place_m[0] + 1.5) / 3.0 * (self.right - self.left)
+        y = self.bottom - (place_m[1] + 1.5) / 3.0 * (self.bottom - self.top)
+        return round(x), round(y)
+
+    def count(self, colour):
+        return sum(
+            self.is_like(x, y, colour)
+            for y in range(self.top, self.bottom)
+            for x in range(self.left, self.right)
+        )
+
+    def redness(self, place_m, within_px=6):
+        """The median red of the pixels around a place on which nothing but the density is drawn."""
+        cx, cy = self.pixel(place_m)
+        box = [
+            self.at(x, y)
+            for x in range(cx - within_px, cx + within_px + 1)
+            for y in range(cy - within_px, cy + within_px + 1)
+        ]
+        reds = sorted(red for red, green, blue in box if green < 40 and blue < 45)
+        return reds[len(reds) // 2] if len(reds) > 10 else None
+
+
+class TheLaboratory(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        PICTURES.mkdir(parents=True, exist_ok=True)
+        start("xvfb", "Xvfb", DISPLAY, "-screen", "0", f"{WIDTH}x{HEIGHT}x24", "-nolisten", "tcp")
+        cls.start_roscore()
+        start("crazyswarm", PROGRAM, "laboratory", MISSION, "--only", "crazyswarm", "--out", HOME / "judgement.json")
+        start("vicon", PROGRAM, "laboratory", MISSION, "--only", "vicon")
+        start("vigil", PROGRAM, "serve", MISSION, "--fleet", "ros", "--port", WEB_PORT)
+        start("rviz", "rviz", "-d", SOURCE / "rviz/vigil.rviz")
+        until(lambda: are("grounded", "cf1", "cf2", "cf3"), 30, "three drones on the ground")
+
+    @classmethod
+    def tearDownClass(cls):
+        for name in reversed(list(RUNNING)):
+            stop(name)
+        for log in HOME.glob("*.log"):
+            print(f"--- {log.name}\n{log.read_text(errors='replace')[-1500:]}", file=sys.stderr)
+
+    @staticmethod
+    def start_roscore():
+        start("roscore", "roscore", "-p", ROS_PORT)
+
+        def answers():
+            return "/rosout" in tool("rostopic", "list", seconds=10)
+
+        end = time.monotonic() + 30
+        while True:
+            with contextlib.suppress(AssertionError, subprocess.TimeoutExpired):
+                if answers():
+                    return
+            assert time.monotonic() < end, "roscore does not come up"
+            time.sleep(0.3)
+
+    def test_01_the_papers_experiment_flies_over_topics(self):
+        service("/vigil/take_off_all")
+        until(lambda: are("active", "cf1", "cf2", "cf3"), 15, "three drones cover")
+        service("/vigil/start_afresh")
+        cls = type(self)
+        cls.began_s = state()["time_s"]
+        start("rosbag", "rosbag", "record", "-a", "-O", HOME / "flight.bag")
+
+        until(lambda: state()["time_s"] - cls.began_s >= 22.5, 60, "23 s")
+        publish("/vigil/land", "std_msgs/String", "data: cf2")
+        until(lambda: are("grounded", "cf2"), 5, "cf2 on the ground")
+        cls.landed = Picture("landed")
+        self.assertTrue(are("active", "cf1", "cf3"), drones())
+
+    def test_02_every_topic_can_be_echoed(self):
+        waiting = {
+            topic: subprocess.Popen(
+                ["rostopic", "echo", "-n", "1", topic], env=ENVIRONMENT, stdout=subprocess.PIPE, stderr=subprocess.PIPE
+            )
+            for topic in EVERY_TOPIC
+        }
+        for topic, process in waiting.items():
+            out, error = process.communicate(timeout=60)
+            self.assertEqual(process.returncode, 0, f"{topic}: {error}")
+            self.assertIn(b"---", out, topic)
+
+    def test_03_the_metric_comes_down_to_five_percent(self):
+        until(lambda: state()["time_s"] - self.began_s >= 120, 150, "120 s")
+        stop("rosbag")
+        self.assertLess(state()["metric_percent"], 5.0)
+
+    def test_04_the_picture_is_the_papers(self):
+        picture = Picture("paper")
+        for colour in GREENS:
+            self.assertGreater(picture.count(colour), 150, colour)
+        # The landed drone's trail has ended, the others' go on.
+        self.assertLessEqual(picture.count(GREENS[1]), 1.05 * self.landed.count(GREENS[1]))
+        self.assertGreater(picture.count(GREENS[0]), 1.2 * self.landed.count(GREENS[0]))
+
+    def test_05_red_fades_with_the_density(self):
+        near, far = [], []
+        for mean in ((-0.74, 0.77), (0.81, 0.32), (-0.08, -0.82)):
+            for dx in (-1, 0, 1):
+                for dy in (-1, 0, 1):
+                    near.append(self.landed.redness((mean[0] + 0.1 * dx, mean[1] + 0.1 * dy)))
+                    far.append(self.landed.redness((mean[0] + 0.42 * dx, mean[1] + 0.42 * dy)) if dx or dy else None)
+        nowhere = self.landed.redness((0.0, 1.35))
+        near = sorted(red for red in near if red is not None)
+        far = sorted(red for red in far if red is not None)
+        self.assertGreater(near[len(near) // 2], 150)
+        self.assertGreater(near[len(near) // 2], 2 * far[len(far) // 2])
+        self.assertGreater(far[len(far) // 2], nowhere)
+
+    def test_06_a_click_becomes_a_target(self):
+        place_m = (1.15, -1.1)
+        before = Picture("before-click")
+        x, y = before.pixel(place_m)
+        tool("xdotool", "mousemove", 272, 42, "click", 1)
+        time.sleep(0.5)  # RViz changes its tool
+        tool("xdotool", "mousemove", x - 1, y)
+        time.sleep(0.3)  # and looks where the mouse is, once a frame
+        tool("xdotool", "mousemove", x, y)
+        time.sleep(0.3)
+        tool("xdotool", "click", 1)
+        until(lambda: any(area["name"] == "rviz-1" for area in state()["areas"]), 10, "a cluster of the clicked target")
+        until(lambda: (Picture("clicked").redness(place_m) or 0) > before.redness(place_m) + 15, 10, "red at the click")
+
+    def test_07_what_was_recorded_can_be_looked_at_and_played(self):
+        info = tool("rosbag", "info", HOME / "flight.bag")
+        for topic in (*EVERY_TOPIC, "/cf1/cmd_velocity_world"):
+            self.assertIn(topic + " ", info)
+        playing = subprocess.Popen(
+            ["rosbag", "play", "--quiet", "-u", "10", str(HOME / "flight.bag"), "--topics", "/vigil/metric_percent",
+             "/vigil/metric_percent:=/played"], env=ENVIRONMENT, stdout=subprocess.DEVNULL)  # fmt: skip
+        self.assertIn("data:", tool("rostopic", "echo", "-n", "1", "/played"))
+        playing.terminate()
+        playing.wait(10)
+
+    def recovers(self):
+        until(lambda: are("active", "cf1", "cf3"), 15, "both drones cover again")
+
+    def test_08_drones_hover_while_nobody_sees_them_and_go_on(self):
+        stop("vicon", signal.SIGKILL)
+        until(lambda: are("tracking_lost", "cf1", "cf3"), 3, "both drones are lost")
+        start("vicon", PROGRAM, "laboratory", MISSION, "--only", "vicon")
+        self.recovers()
+
+    def test_09_a_tracker_that_repeats_itself_is_noticed(self):
+        fault("freeze")
+        until(lambda: are("tracking_lost", "cf1", "cf3"), 3, "both drones are lost")
+        fault("none")
+        self.recovers()
+
+    def test_10_bodies_that_swap_their_names_are_noticed(self):
+        fault("swap cf1 cf3")
+        until(lambda: are("tracking_lost", "cf1", "cf3"), 3, "both drones are lost")
+        fault("none")
+        self.recovers()
+
+    def test_11_positions_that_are_late_are_noticed(self):
+        fault("delay 0.3")
+        until(lambda: are("tracking_lost", "cf1", "cf3"), 3, "both drones are lost")
+        fault("none")
+        self.recovers()
+
+    def test_12_a_new_roscore_finds_everybody(self):
+        stop("roscore", signal.SIGKILL)
+        time.sleep(3)  # for so long there is none
+        self.assertTrue(are("active", "cf1", "cf3"), drones())
+        self.start_roscore()
+        until(lambda: "/vigil/density" in tool("rostopic", "list"), 15, "the program's topics")
+        until(lambda: "/cf1/land" in tool("rosservice", "list"), 15, "the stand-in's services")
+        stop("vicon", signal.SIGKILL)
+        start("vicon", PROGRAM, "laboratory", MISSION, "--only", "vicon")
+        time.sleep(1)  # until the old one is missed
+        self.recovers()
+
+    def test_13_nobody_came_too_close_and_the_stream_never_paused(self):
+        service("/vigil/land_all")
+        until(lambda: are("grounded", "cf1", "cf2", "cf3"), 15, "all on the ground")
+        stop("crazyswarm")
+        judgement = json.loads((HOME / "judgement.json").read_text())
+        print(judgement, file=sys.stderr)
+        for rule in ("separation", "wall", "no_fly", "speed"):
+            self.assertEqual(judgement[f"{rule}_violations"], 0, judgement)
+        self.assertGreater(judgement["setpoints"], 120 * 45)
+        self.assertLess(judgement["longest_silence_s"], 0.25)
+
+    def test_14_the_program_is_alive_and_ends_when_asked(self):
+        process = RUNNING["vigil"]
+        self.assertIsNone(process.poll())
+        stop("vigil")
+        self.assertEqual(process.returncode, 0)
+
+
+if __name__ == "__main__":
+    unittest.main(argv=sys.argv[:1] + sys.argv[4:], verbosity=2, failfast=True)
