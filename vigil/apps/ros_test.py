@@ -22,6 +22,7 @@ PROGRAM, SOURCE, PICTURES = (pathlib.Path(argument).resolve() for argument in sy
 MISSION = SOURCE / "missions/paper.yaml"
 HOME = pathlib.Path(tempfile.mkdtemp(prefix="vigil-ros-"))
 WIDTH, HEIGHT = 1200, 900
+VIEW = (370, 1180), (70, 865)  # of RViz' window: where it draws
 BORDER = (217, 217, 217)
 GREENS = [(0, 255, 0), (0, 191, 31), (0, 128, 61)]
 EVERY_TOPIC = (
@@ -32,12 +33,15 @@ EVERY_TOPIC = (
 
 
 def free_port():
-    with socket.socket() as probe:
-        probe.bind(("127.0.0.1", 0))
-        return probe.getsockname()[1]
+    """Below those that the system hands out by itself: nobody takes it meanwhile."""
+    for port in range(11400 + os.getpid() % 1000, 20000):
+        with socket.socket() as probe, contextlib.suppress(OSError):
+            probe.bind(("127.0.0.1", port))
+            return port
+    raise AssertionError("no port is free")
 
 
-ROS_PORT, WEB_PORT, DISPLAY = free_port(), free_port(), f":{100 + os.getpid() % 400}"
+ROS_PORT, DISPLAY = free_port(), f":{100 + os.getpid() % 400}"
 ENVIRONMENT = {
     **os.environ,
     "ROS_MASTER_URI": f"http://127.0.0.1:{ROS_PORT}", "ROS_IP": "127.0.0.1", "HOME": str(HOME), "ROS_HOME": str(HOME / "ros"),
@@ -50,18 +54,18 @@ RUNNING = {}
 
 def start(name, *command):
     with open(HOME / f"{name}.log", "a") as log:
-        RUNNING[name] = subprocess.Popen([str(part) for part in command], env=ENVIRONMENT, stdout=log, stderr=log)
+        RUNNING[name] = subprocess.Popen([str(part) for part in command], env=ENVIRONMENT, stdout=log, stderr=log, start_new_session=True)
 
 
 def stop(name, how=signal.SIGINT):
     process = RUNNING.pop(name, None)
     if process is None:
         return
-    process.send_signal(how)
+    os.killpg(process.pid, how)  # roscore and rosbag have children of their own
     try:
         process.wait(15)
     except subprocess.TimeoutExpired:
-        process.kill()
+        os.killpg(process.pid, signal.SIGKILL)
         process.wait()
 
 
@@ -76,13 +80,18 @@ def until(condition, seconds, what):
     raise AssertionError(f"{what}: not within {seconds} s; drones: {drones()}")
 
 
+def console():
+    """The address that the program printed."""
+    return (HOME / "vigil.log").read_text().split(" at ")[1].split()[0]
+
+
 def state():
-    with urllib.request.urlopen(f"http://127.0.0.1:{WEB_PORT}/api/state", timeout=5) as answer:
+    with urllib.request.urlopen(console() + "api/state", timeout=5) as answer:
         return json.load(answer)
 
 
 def drones():
-    with contextlib.suppress(OSError, KeyError, TypeError):
+    with contextlib.suppress(OSError, KeyError, IndexError, TypeError):
         return {drone["id"]: (drone["activity"], drone["mode"]) for drone in state()["drones"]}
     return {}
 
@@ -125,8 +134,9 @@ class Picture:
         self.bytes = subprocess.run(
             ["convert", str(path), "-depth", "8", "rgb:-"], env=ENVIRONMENT, capture_output=True, check=True
         ).stdout
-        rows = [y for y in range(HEIGHT) if sum(self.is_like(x, y, BORDER) for x in range(0, WIDTH, 3)) > 100]
-        columns = [x for x in range(WIDTH) if sum(self.is_like(x, y, BORDER) for y in range(0, HEIGHT, 3)) > 100]
+        across, down = range(*VIEW[0]), range(*VIEW[1])
+        rows = [y for y in down if sum(self.is_like(x, y, BORDER) for x in across) > 300]
+        columns = [x for x in across if sum(self.is_like(x, y, BORDER) for y in down) > 300]
         assert rows and columns, "the field's border is not in the picture"
         self.left, self.right, self.top, self.bottom = columns[0], columns[-1], rows[0], rows[-1]
 
@@ -164,21 +174,21 @@ class Picture:
 class TheLaboratory(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
+        cls.addClassCleanup(cls.end_everything)
         PICTURES.mkdir(parents=True, exist_ok=True)
         start("xvfb", "Xvfb", DISPLAY, "-screen", "0", f"{WIDTH}x{HEIGHT}x24", "-nolisten", "tcp")
         cls.start_roscore()
         start("crazyswarm", PROGRAM, "laboratory", MISSION, "--only", "crazyswarm", "--out", HOME / "judgement.json")
         start("vicon", PROGRAM, "laboratory", MISSION, "--only", "vicon")
-        start("vigil", PROGRAM, "serve", MISSION, "--fleet", "ros", "--port", WEB_PORT)
+        start("vigil", PROGRAM, "serve", MISSION, "--fleet", "ros", "--port", "0")
         start("rviz", "rviz", "-d", SOURCE / "rviz/vigil.rviz")
         until(lambda: are("grounded", "cf1", "cf2", "cf3"), 30, "three drones on the ground")
 
-    @classmethod
-    def tearDownClass(cls):
+    @staticmethod
+    def end_everything():
         for name in reversed(list(RUNNING)):
             stop(name)
-        for log in HOME.glob("*.log"):
-            print(f"--- {log.name}\n{log.read_text(errors='replace')[-1500:]}", file=sys.stderr)
+        print(f"logs of the {len(list(HOME.glob('*.log')))} programs: {HOME}", file=sys.stderr)
 
     @staticmethod
     def start_roscore():
@@ -202,7 +212,6 @@ class TheLaboratory(unittest.TestCase):
         cls = type(self)
         cls.began_s = state()["time_s"]
         start("rosbag", "rosbag", "record", "-a", "-O", HOME / "flight.bag")
-
         until(lambda: state()["time_s"] - cls.began_s >= 22.5, 60, "23 s")
         publish("/vigil/land", "std_msgs/String", "data: cf2")
         until(lambda: are("grounded", "cf2"), 5, "cf2 on the ground")

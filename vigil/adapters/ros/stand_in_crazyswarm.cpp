@@ -46,7 +46,7 @@ class StandInCrazyswarm::Wire {
     return told;
   }
 
-  void show(const std::vector<Point>& places) {
+  void show(const std::vector<Point>& places) const {
     tf2_msgs::TFMessage message;
     for (std::size_t i = 0; i < places.size(); ++i) {
       geometry_msgs::TransformStamped body;
