@@ -123,9 +123,8 @@ class CrazyswarmLink final : public CrazyswarmPort {
       return;
     }
     for (std::size_t i = 0; i < setup_.drones.size(); ++i) {
-      const std::string name = ros_name(setup_.drones[i]);
       positions_.push_back(node_.subscribe<geometry_msgs::TransformStamped>(
-          "/vicon/" + name + "/" + name, 1,
+          vicon_topic(setup_.drones[i]), 1,
           [this, i](const geometry_msgs::TransformStamped::ConstPtr& seen) { sightings_.add(i, *seen); },
           ros::VoidConstPtr(), at_once));
     }

@@ -17,4 +17,9 @@ std::string ros_name(const std::string& id) {
   return name;
 }
 
+std::string vicon_topic(const std::string& id) {
+  const std::string name = ros_name(id);
+  return "/vicon/" + name + "/" + name;
+}
+
 }  // namespace vigil::ros_bridge

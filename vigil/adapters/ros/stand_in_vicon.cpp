@@ -26,10 +26,8 @@ class StandInVicon::Wire {
  public:
   explicit Wire(const std::vector<std::string>& drones) {
     node_.setCallbackQueue(&queue_);
-    for (const std::string& id : drones) {
-      const std::string name = ros_name(id);
-      subjects_[name] = node_.advertise<geometry_msgs::TransformStamped>("/vicon/" + name + "/" + name, 10);
-    }
+    for (const std::string& id : drones)
+      subjects_[ros_name(id)] = node_.advertise<geometry_msgs::TransformStamped>(vicon_topic(id), 10);
     bodies_ = node_.subscribe("/laboratory/bodies", 1, &Wire::see, this, ros::TransportHints().tcpNoDelay());
     faults_ = node_.subscribe("/laboratory/fault", 10, &Wire::spoil, this);
     spinner_.start();
