@@ -188,7 +188,7 @@ std::vector<swarm::Command> commands_of(const PreviewChange& change) {
 }  // namespace
 
 double preview_tick_s(double mission_tick_s, std::size_t drones) noexcept {
-  const double longest_s = drones <= 100 ? 0.1 : drones <= 300 ? 0.2 : 0.4;
+  const double longest_s = drones <= 5 ? 0.1 : drones <= 300 ? 0.2 : 0.4;
   return mission_tick_s * std::max(1.0, std::floor(longest_s / mission_tick_s + 1e-9));
 }
 
