@@ -164,6 +164,17 @@ fetch_page_tools() {
     quietly page-tools "Fetching the tools of the console's page" npm --prefix "$root/web" ci
 }
 
+# The Python that reads recordings in the tests, with the packages of setup/bag-reader.txt: made when that has changed.
+fetch_bag_reader() {
+  local reader="$root/build/bag-reader"
+  [[ $reader/made -nt $root/setup/bag-reader.txt ]] && return
+  rm -rf "$reader"
+  quietly bag-reader "Fetching the reader of recordings" python3 -m venv "$reader"
+  quietly bag-reader "Fetching the reader of recordings" "$reader/bin/python3" -m pip install --disable-pip-version-check \
+    --require-hashes --only-binary :all: --requirement "$root/setup/bag-reader.txt"
+  touch "$reader/made"
+}
+
 # The console's page, web/dist: built when something below web/ is newer than it.
 build_page() {
   fetch_page_tools

@@ -10,6 +10,7 @@
 #include "vigil/adapters/recording/recording_error.hpp"
 #include "vigil/apps/campaign_command.hpp"
 #include "vigil/apps/check_command.hpp"
+#include "vigil/apps/export_command.hpp"
 #include "vigil/apps/failure.hpp"
 #include "vigil/apps/laboratory_command.hpp"
 #include "vigil/apps/margins_command.hpp"
@@ -29,6 +30,7 @@ struct Arguments {
   CheckOptions check;
   MarginsOptions margins;
   ReplayOptions replay;
+  ExportOptions export_of;
   ReportArguments report;
   ServeOptions serve;
   LaboratoryOptions laboratory;
@@ -38,6 +40,17 @@ void add_settings(CLI::App* command, std::vector<std::string>& settings) {
   command->add_option("--set", settings, "Change a value of the mission: key=value, e.g. control.accounting=paper_eq14")
       ->type_name("KEY=VALUE")
       ->take_all();
+}
+
+void add_recording_options(CLI::App* command, RecordingOptions& options) {
+  constexpr std::uint64_t kMostMib = std::uint64_t{1} << 24U;
+  command->add_option("--record-every", options.keep_every, "Keep every Nth tick in the recording")
+      ->check(CLI::Range(1, 1'000'000));
+  command
+      ->add_option("--record-split", options.split_mib, "Begin another file of the recording at so many MiB (0: never)")
+      ->check(CLI::Range(std::uint64_t{0}, kMostMib));
+  command->add_option("--record-keep-free", options.keep_free_mib, "Record no more where the disk has fewer MiB left")
+      ->check(CLI::Range(std::uint64_t{0}, kMostMib));
 }
 
 /// A footer of a command's help: what its exit tells, in the order of the codes.
@@ -68,8 +81,7 @@ CLI::App* add_simulate(CLI::App& program, SimulateOptions& options) {
       ->type_name("NUMBER");
   command->add_option("--seed", options.shorthands.seed, "The seed of everything random instead of the mission's")
       ->type_name("NUMBER");
-  command->add_option("--record-every", options.keep_every, "Keep every Nth tick in the recording")
-      ->check(CLI::Range(1, 1'000'000));
+  add_recording_options(command, options.recording);
   command->add_flag("--json", options.json, "Print summary.json instead of a text");
   add_settings(command, options.settings);
   command->footer(exit_codes("", true));
@@ -132,9 +144,22 @@ CLI::App* add_report(CLI::App& program, ReportArguments& arguments) {
 CLI::App* add_replay(CLI::App& program, ReplayOptions& options) {
   CLI::App* command = program.add_subcommand("replay", "Fly a recording again, tick by tick, from what it was given");
   command->add_option("DIR", options.directory, "The directory that simulate or serve --record wrote")->required();
-  command->add_flag("--verify", options.verify, "Recompute every tick and compare it, bit for bit")->required();
+  command->add_flag("--verify", options.verify, "Recompute every tick and compare it, bit for bit");
+  command->add_option("--from", options.from_s, "Fly on from this moment by other rules, in the mission's simulator")
+      ->type_name("SECONDS");
+  command->add_option("--out", options.out, "Directory for a recording of the flight that would have been")
+      ->check(not_empty());
+  add_settings(command, options.settings);
   command->add_flag("--json", options.json, "Print JSON instead of a text");
   command->footer(exit_codes("1 a tick differs or cannot be recomputed, ", false));
+  return command;
+}
+
+CLI::App* add_export(CLI::App& program, ExportOptions& options) {
+  CLI::App* command = program.add_subcommand("export", "Write a recording as tables that spreadsheets open (CSV)");
+  command->add_option("DIR", options.directory, "The directory that simulate or serve --record wrote")->required();
+  command->add_option("--out", options.out, "Directory for the tables; must not exist")->required()->check(not_empty());
+  command->footer(exit_codes("", false));
   return command;
 }
 
@@ -154,8 +179,7 @@ CLI::App* add_serve(CLI::App& program, ServeOptions& options) {
       ->check(not_empty());
   command->add_option("--key", options.key, "The certificate's key (PEM)")->check(not_empty());
   command->add_option("--record", options.record, "Directory for a recording; must not exist")->check(not_empty());
-  command->add_option("--record-every", options.keep_every, "Keep every Nth tick in the recording")
-      ->check(CLI::Range(1, 1'000'000));
+  add_recording_options(command, options.recording);
   command->add_option("--state", options.state, "Directory from which a restarted program goes on where it was")
       ->check(not_empty());
   command->add_flag("--afresh", options.afresh, "Forget what an earlier run left in --state");
@@ -195,6 +219,7 @@ int run(int argc, char** argv) {
   const CLI::App* margins_command = add_margins(program, arguments.margins);
   const CLI::App* report_command = add_report(program, arguments.report);
   const CLI::App* replay_command = add_replay(program, arguments.replay);
+  const CLI::App* export_command = add_export(program, arguments.export_of);
   const CLI::App* serve_command = add_serve(program, arguments.serve);
   const CLI::App* laboratory_command = add_laboratory(program, arguments.laboratory);
   const CLI::App* schema_command =
@@ -214,6 +239,7 @@ int run(int argc, char** argv) {
   if (margins_command->parsed()) return margins(arguments.margins);
   if (report_command->parsed()) return report(arguments.report);
   if (replay_command->parsed()) return replay(arguments.replay);
+  if (export_command->parsed()) return export_tables(arguments.export_of);
   if (serve_command->parsed()) return serve(arguments.serve, VIGIL_VERSION);
   if (laboratory_command->parsed()) return laboratory(arguments.laboratory);
   if (schema_command->parsed()) return print_schema();

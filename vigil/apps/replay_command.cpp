@@ -1,15 +1,22 @@
 #include "vigil/apps/replay_command.hpp"
 
+#include <cmath>
 #include <cstdio>
 #include <memory>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include "vigil/adapters/recording/bag_recording.hpp"
+#include "vigil/adapters/recording/bag_recorder.hpp"
+#include "vigil/apps/exit_code.hpp"
 #include "vigil/apps/failure.hpp"
+#include "vigil/apps/fleet_choice.hpp"
 #include "vigil/apps/progress_bar.hpp"
+#include "vigil/apps/recording_choice.hpp"
+#include "vigil/apps/results_folder.hpp"
+#include "vigil/runtime/fly_on.hpp"
 #include "vigil/runtime/mission_file.hpp"
+#include "vigil/runtime/mission_writer.hpp"
 #include "vigil/runtime/replayed_flight.hpp"
 
 namespace vigil::apps {
@@ -87,19 +94,72 @@ ordered_json in_json(const Verdict& verdict, const runtime::FlightRecording& rec
   return result;
 }
 
-}  // namespace
-
-int replay(const ReplayOptions& options) {
-  runtime::ReplayedFlight flight(std::make_unique<recording::BagRecording>(options.directory));
+int print_verdict(const ReplayOptions& options, runtime::ReplayedFlight& flight, const runtime::Mission& mission) {
   const runtime::FlightRecording& recording = flight.recording();
-  const runtime::Mission mission = runtime::parse_mission(recording.head().mission_text,
-                                                          (options.directory / "recording" / "mission.yaml").string());
   const Verdict verdict = verify(flight);
   if (options.json)
     fmt::print("{}\n", in_json(verdict, recording, mission).dump(2));
   else
     print_for_people(verdict, recording, mission);
   return verdict.holds() ? kDone : kCheckFailed;
+}
+
+std::string metres(double value) { return std::isfinite(value) ? fmt::format("{:.3f} m", value) : std::string("-"); }
+
+void print_for_people(const runtime::TwoFlights& two) {
+  const auto line = [](const char* what, const std::string& happened, const std::string& would_have) {
+    fmt::print("  {:<24} {:>14} {:>14}\n", what, happened, would_have);
+  };
+  const runtime::FlightSummary& a = two.happened;
+  const runtime::FlightSummary& b = two.would_have;
+  const auto number = [](auto value) { return fmt::format("{}", value); };
+  fmt::print("{}, from {:g} s on for {:g} s\n", a.mission, two.from_s, a.duration_s);
+  line("", "happened", "would have");
+  line("metric at the end", fmt::format("{:.3g}", a.last_metric), fmt::format("{:.3g}", b.last_metric));
+  line("of its first value", fmt::format("{:.2f} %", a.last_percent), fmt::format("{:.2f} %", b.last_percent));
+  line("least separation", metres(a.audit.least.airborne_pair_m), metres(b.audit.least.airborne_pair_m));
+  line("least wall", metres(a.audit.least.wall_m), metres(b.audit.least.wall_m));
+  line("fastest", fmt::format("{:.3f} m/s", a.audit.max_speed_m_s), fmt::format("{:.3f} m/s", b.audit.max_speed_m_s));
+  line("separation violations", number(a.audit.separation_violations), number(b.audit.separation_violations));
+  line("wall violations", number(a.audit.wall_violations), number(b.audit.wall_violations));
+  line("no-fly violations", number(a.audit.no_fly_violations), number(b.audit.no_fly_violations));
+  line("ticks with fall-back", number(a.fallback_ticks), number(b.fallback_ticks));
+}
+
+int print_two_flights(const ReplayOptions& options, runtime::ReplayedFlight& flight, const runtime::Mission& mission) {
+  std::vector<runtime::Override> overrides;
+  for (const std::string& setting : options.settings) overrides.push_back(runtime::parse_override(setting));
+  const auto changed = [&overrides](const runtime::Mission& with_targets) {
+    return runtime::parse_mission(runtime::mission_yaml(with_targets), "the recorded mission", overrides);
+  };
+  std::optional<recording::BagRecorder> recorder;
+  if (!options.out.empty()) {
+    create_results("--out", options.out);
+    recorder.emplace(options.out, runtime::mission_yaml(changed(mission)));
+  }
+  const auto fleet = simulated_fleet(mission);
+  const runtime::TwoFlights two =
+      runtime::fly_on(flight, mission, changed, *options.from_s, *fleet, recorder ? &*recorder : nullptr);
+  if (recorder) recorder->finish();
+  if (options.json)
+    fmt::print("{}\n", ordered_json{{"from_s", two.from_s},
+                                    {"happened", runtime::to_json(two.happened)},
+                                    {"would_have", runtime::to_json(two.would_have)}}
+                           .dump(2));
+  else
+    print_for_people(two);
+  return kDone;
+}
+
+}  // namespace
+
+int replay(const ReplayOptions& options) {
+  if (options.verify == options.from_s.has_value())
+    throw Failure(kBadInput, "replay: give either --verify, or --from T with --set key=value");
+  ChosenRecording chosen = choose_recording(options.directory);
+  const runtime::Mission& mission = chosen.mission;
+  runtime::ReplayedFlight flight(std::move(chosen.recording));
+  return options.from_s ? print_two_flights(options, flight, mission) : print_verdict(options, flight, mission);
 }
 
 }  // namespace vigil::apps

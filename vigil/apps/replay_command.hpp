@@ -1,6 +1,9 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
 
 namespace vigil::apps {
 
@@ -8,11 +11,15 @@ namespace vigil::apps {
 struct ReplayOptions {
   std::filesystem::path directory;  ///< that simulate or serve --record wrote
   bool verify = false;
+  std::optional<double> from_s;       ///< fly on from there
+  std::vector<std::string> settings;  ///< key=value, from there on
+  std::filesystem::path out;          ///< for the flight that would have been; empty: it is not recorded
   bool json = false;
 };
 
 /// `vigil replay --verify`: recomputes every tick of a recording and compares what it decided, bit for bit. kDone where
 /// all of it is the same, kCheckFailed at the first difference, or where the recording cannot be recomputed to its end.
+/// `--from`: flies on from a moment by other rules, and says what happened and what would have.
 /// Throws Failure, RecordingError, MissionError.
 [[nodiscard]] int replay(const ReplayOptions& options);
 

@@ -2,12 +2,10 @@
 
 #include <fmt/format.h>
 
-#include "vigil/adapters/recording/bag_recording.hpp"
 #include "vigil/adapters/report/write_report.hpp"
 #include "vigil/apps/exit_code.hpp"
-#include "vigil/apps/failure.hpp"
+#include "vigil/apps/recording_choice.hpp"
 #include "vigil/apps/text_file.hpp"
-#include "vigil/runtime/mission_file.hpp"
 #include "vigil/runtime/recording_playback.hpp"
 
 namespace vigil::apps {
@@ -28,16 +26,9 @@ std::optional<std::string> summary_of(const fs::path& directory) {
 
 int report(const ReportArguments& arguments) {
   const fs::path& directory = arguments.directory;
-  if (!fs::is_directory(directory / "recording"))
-    throw Failure(kBadInput,
-                  fmt::format("{}: no recording here; name a directory that `vigil simulate --out` or `vigil serve "
-                              "--record` wrote",
-                              directory.string()));
-  recording::BagRecording recording(directory);
-  const runtime::Mission mission =
-      runtime::parse_mission(recording.head().mission_text, (directory / "recording" / "mission.yaml").string(), {});
-  const runtime::RecordedFlight flight = runtime::collect(recording, mission);
-  report::write_report({flight, mission, summary_of(directory)}, directory);
+  const ChosenRecording chosen = choose_recording(directory);
+  const runtime::RecordedFlight flight = runtime::collect(*chosen.recording, chosen.mission);
+  report::write_report({flight, chosen.mission, summary_of(directory)}, directory);
   fmt::print("{}\n", (directory / "report.html").string());
   return kDone;
 }

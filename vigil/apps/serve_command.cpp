@@ -14,6 +14,7 @@
 #include "vigil/apps/fleet_choice.hpp"
 #include "vigil/apps/interrupt.hpp"
 #include "vigil/apps/mission_choice.hpp"
+#include "vigil/apps/results_folder.hpp"
 #include "vigil/apps/ros_side.hpp"
 #include "vigil/runtime/controller_setup.hpp"
 #include "vigil/runtime/live_mission.hpp"
@@ -26,11 +27,6 @@ namespace vigil::apps {
 namespace {
 
 namespace fs = std::filesystem;
-
-std::string in_words(const fs::path& path) {
-  constexpr std::size_t kMostBytes = 300;
-  return runtime::on_one_line(path.string(), kMostBytes);
-}
 
 void check_options(const ServeOptions& options) {
   if (options.fleet != "sim" && options.fleet != "ros")
@@ -53,20 +49,15 @@ fs::path recording_of(const fs::path& folder, std::uint32_t epoch) {
   return epoch == 1 ? folder : fs::path(fmt::format("{}-{}", folder.string(), epoch));
 }
 
-std::int64_t nanoseconds_since_1970() {
-  return std::chrono::duration_cast<std::chrono::nanoseconds>(std::chrono::system_clock::now().time_since_epoch())
-      .count();
-}
+std::chrono::nanoseconds time_of_day() { return std::chrono::system_clock::now().time_since_epoch(); }
 
 std::unique_ptr<runtime::QueuedRecorder> recorder_for(const runtime::Mission& mission, const ServeOptions& options,
                                                       const runtime::FlightStart& start, std::uint32_t epoch) {
   if (options.record.empty()) return nullptr;
   const fs::path folder = recording_of(options.record, epoch);
-  std::error_code error;
-  if (fs::exists(fs::symlink_status(folder, error)))
-    throw Failure(kBadInput, fmt::format("--record {}: is there already; name a directory that is not, or remove it",
-                                         in_words(folder)));
-  recording::BagRecorderOptions how{.keep_every = options.keep_every, .began_ns = nanoseconds_since_1970()};
+  refuse_existing("--record", folder);
+  recording::BagRecorderOptions how = recorder_options(options.recording);
+  how.time_of_day = time_of_day;
   how.bag.must_survive_power = true;
   auto recorder = std::make_unique<recording::BagRecorder>(folder, runtime::mission_yaml(mission), how);
   return std::make_unique<runtime::QueuedRecorder>(std::move(recorder), mission, start);

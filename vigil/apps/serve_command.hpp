@@ -5,6 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "vigil/apps/recording_options.hpp"
+
 namespace vigil::apps {
 
 struct ServeOptions {
@@ -17,7 +19,7 @@ struct ServeOptions {
   std::filesystem::path certificate;  ///< empty: no TLS
   std::filesystem::path key;
   std::filesystem::path record;  ///< empty: nothing is recorded
-  std::uint64_t keep_every = 1;
+  RecordingOptions recording;
   std::filesystem::path state;        ///< empty: nothing is kept for a restart
   bool afresh = false;                ///< forget what an earlier run left
   std::filesystem::path page;         ///< empty: where the build or the installation has it

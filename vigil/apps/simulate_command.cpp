@@ -12,6 +12,7 @@
 #include "vigil/apps/fleet_choice.hpp"
 #include "vigil/apps/interrupt.hpp"
 #include "vigil/apps/progress_bar.hpp"
+#include "vigil/apps/results_folder.hpp"
 #include "vigil/apps/text_file.hpp"
 #include "vigil/runtime/controller_setup.hpp"
 #include "vigil/runtime/mission_error.hpp"
@@ -22,24 +23,6 @@ namespace vigil::apps {
 namespace {
 
 namespace fs = std::filesystem;
-
-/// The directory for a line of text, however it is called.
-std::string in_words(const fs::path& out) {
-  constexpr std::size_t kMostBytes = 300;
-  return runtime::on_one_line(out.string(), kMostBytes);
-}
-
-/// Creates the directory of results; refuses one that is there, so that no flight overwrites another.
-void create_results(const fs::path& out) {
-  std::error_code error;
-  if (fs::exists(fs::symlink_status(out, error)))
-    throw Failure(kBadInput,
-                  fmt::format("--out {}: is there already; name a directory that is not, or remove it", in_words(out)));
-  fs::create_directories(out, error);
-  if (error)
-    throw Failure(kBadInput, fmt::format("--out {}: cannot be created ({}); name a place where you may write",
-                                         in_words(out), error.message()));
-}
 
 std::chrono::nanoseconds now() { return std::chrono::steady_clock::now().time_since_epoch(); }
 
@@ -75,11 +58,11 @@ void print_for_people(const runtime::FlightSummary& summary, const fs::path& out
 
 int simulate(const SimulateOptions& options) {
   const runtime::Mission mission = choose_mission(options.mission, options.settings, options.shorthands);
-  create_results(options.out);
+  create_results("--out", options.out);
   catch_interrupts();
 
   const std::unique_ptr<runtime::VirtualFleet> fleet = simulated_fleet(mission);
-  recording::BagRecorder recorder(options.out, runtime::mission_yaml(mission), {.keep_every = options.keep_every});
+  recording::BagRecorder recorder(options.out, runtime::mission_yaml(mission), recorder_options(options.recording));
   recorder.begin(mission, {runtime::first_intent(mission), {}});
   runtime::VirtualFlight flight(mission, *fleet, &recorder, now);
   fly(flight);

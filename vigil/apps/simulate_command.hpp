@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "vigil/apps/mission_choice.hpp"
+#include "vigil/apps/recording_options.hpp"
 
 namespace vigil::apps {
 
@@ -14,8 +15,8 @@ struct SimulateOptions {
   std::filesystem::path out;
   Shorthands shorthands;              ///< instead of what the mission says
   std::vector<std::string> settings;  ///< key=value
-  std::uint64_t keep_every = 1;       ///< ticks, in the recording
-  bool json = false;                  ///< the summary to standard output
+  RecordingOptions recording;
+  bool json = false;  ///< the summary to standard output
 };
 
 /// `vigil simulate`: flies the mission as fast as it can and leaves `recording/` and `summary.json` in options.out.

@@ -18,7 +18,10 @@ void show(const swarm::DroneObservation& known, swarm::DroneSnapshot& drone) noe
 }  // namespace
 
 Recollection::Recollection(const RecordingHead& head)
-    : dt_s_(head.parameters.dt_s), is_thinned_(head.keep_every > 1), drones_(head.parameters.drones) {}
+    : dt_s_(head.parameters.dt_s), is_thinned_(head.keep_every > 1), drones_(head.parameters.drones) {
+  const std::vector<Vec2>& starts = head.parameters.starts;
+  for (std::size_t i = 0; i < starts.size() && i < drones_.size(); ++i) drones_[i].last_good.position = starts[i];
+}
 
 void Recollection::complete(RecordedTick& tick) noexcept {
   for (std::size_t i = 0; i < drones_.size(); ++i) {

@@ -151,6 +151,8 @@ class Hub {
   void send_events();
   void send_snapshot(std::chrono::nanoseconds now);
   void send_status();
+  /// Tells once what keeps the flight from being recorded, or recorded whole.
+  void watch_recorder();
   void drop_the_silent(std::chrono::nanoseconds now);
   void say_to_all(const Json& json);
   void show_to_all(ClientLine::Latest kind, const SharedBytes& bytes);
@@ -180,6 +182,8 @@ class Hub {
   runtime::ClockState clock_;
   std::size_t clock_version_ = 0;
   bool waits_for_resume_ = false;
+  bool has_told_lost_ticks_ = false;
+  bool has_told_trouble_ = false;
   std::deque<Json> events_;  ///< the newest
   std::vector<Json> new_events_;
   std::uint64_t next_event_ = 1;

@@ -92,6 +92,8 @@ void Hub::take(const FlightNews& news) {
   drone_index_.clear();
   for (std::size_t i = 0; i < flight_->mission().drones.size(); ++i) drone_index_.emplace(drone_id(i), i);
   waits_for_resume_ = news.is_restored;
+  has_told_lost_ticks_ = false;
+  has_told_trouble_ = false;
   for (const auto& [id, client] : clients_)
     if (client.has_said_hello) client.line->say(mission_message_);
   runtime::EventWords words{Severity::kInfo, fmt::format("mission {} begins", flight_->mission().name), "", ""};
@@ -299,8 +301,25 @@ void Hub::poll() {
   send_events();
   if (now >= next_status_) {
     next_status_ = now + kStatusEvery;
+    watch_recorder();
     send_status();
   }
+}
+
+void Hub::watch_recorder() {
+  const runtime::QueuedRecorder* recorder = flight_->recorder();
+  if (recorder == nullptr) return;
+  const auto tell = [this](bool& has_told, const std::string& text, const char* effect, const char* next) {
+    if (!std::exchange(has_told, true))
+      log({.source = "program", .what = "recording", .words = {Severity::kAlarm, text, effect, next}});
+  };
+  const std::string trouble = recorder->trouble();
+  if (!trouble.empty())
+    tell(has_told_trouble_, "nothing more is recorded: " + trouble, "the flight goes on, and leaves no trace from here",
+         "make room and load the mission anew, or fly on without a recording");
+  if (recorder->lost_ticks() > 0)
+    tell(has_told_lost_ticks_, "the recording has a gap: the disk is too slow",
+         "from here on it can be looked at, but not recomputed", "record to a faster disk, or every Nth tick");
 }
 
 void Hub::send_snapshot(std::chrono::nanoseconds now) {

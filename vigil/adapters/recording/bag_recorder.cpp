@@ -1,8 +1,10 @@
 #include "vigil/adapters/recording/bag_recorder.hpp"
 
+#include <algorithm>
 #include <cassert>
 #include <cmath>
 #include <exception>
+#include <iterator>
 #include <utility>
 
 #include <fmt/format.h>
@@ -32,16 +34,22 @@ void BagRecorder::begin(const runtime::Mission& mission, const runtime::FlightSt
   head_.start = start;
   if (start.past) first_time_s_ = static_cast<double>(start.past->ticks) * head_.parameters.dt_s;
   last_time_s_ = first_time_s_;
+  set_time_of_day();
   skipped_.emplace(Skipped{swarm::Snapshot(mission.drones.size()), {}});
-  bag_.emplace(folder_, own_topics(), options_.bag);
-  write_head(writer_, head_);
-  write(kMissionTopic, first_time_s_);
-  bag_->commit();
+  std::vector<Topic> topics = own_topics();
+  standard_.emplace(mission, topics.size());
+  std::ranges::copy(standard_->topics(), std::back_inserter(topics));
+  bag_.emplace(folder_, std::move(topics), options_.bag);
+  write_mission();
+}
+
+void BagRecorder::set_time_of_day() {
+  if (options_.time_of_day) began_ns_ = options_.time_of_day().count();
 }
 
 std::int64_t BagRecorder::stamp_ns(double time_s) const {
   constexpr double kNanoseconds = 1e9;
-  return options_.began_ns + std::llround((time_s - first_time_s_) * kNanoseconds);
+  return began_ns_ + std::llround((time_s - first_time_s_) * kNanoseconds);
 }
 
 void BagRecorder::write(std::size_t topic, double time_s) { bag_->write(topic, stamp_ns(time_s), writer_.message()); }
@@ -61,6 +69,7 @@ void BagRecorder::record(const runtime::TickRecord& tick) noexcept {
     least_ = least(least_, tick.clearances);
     fallback_ = fallback_ || tick.snapshot.fallback;
     last_time_s_ = tick.snapshot.time_s;
+    if (seen_ == 0) set_time_of_day();
     if (seen_++ % options_.keep_every == 0)
       keep(tick);
     else
@@ -94,6 +103,7 @@ void BagRecorder::write_tick_of(const swarm::Snapshot& snapshot, std::span<const
                        .fallback = fallback_,
                        .is_thinned = options_.keep_every > 1});
   write(kTickTopic, snapshot.time_s);
+  standard_->write_tick(snapshot, stamp_ns(snapshot.time_s), writer_, *bag_);
   ++kept_;
   least_ = {};
   fallback_ = false;
@@ -103,8 +113,14 @@ void BagRecorder::write_tick_of(const swarm::Snapshot& snapshot, std::span<const
 /// Every file begins with the mission, so that it can be understood without the ones before it.
 void BagRecorder::begin_file() {
   bag_->begin_file();
+  write_mission();
+}
+
+void BagRecorder::write_mission() {
   write_head(writer_, head_);
   write(kMissionTopic, last_time_s_);
+  bag_->commit();
+  bag_->write_metadata();
 }
 
 void BagRecorder::log(const runtime::LoggedEvent& event) noexcept {
@@ -120,6 +136,7 @@ void BagRecorder::targets(double time_s, const runtime::TargetsSection& targets)
   guarded([&] {
     write_targets(writer_, time_s, targets);
     write(kTargetsTopic, last_time_s_);
+    standard_->write_targets(targets, stamp_ns(last_time_s_), writer_, *bag_);
   });
 }
 

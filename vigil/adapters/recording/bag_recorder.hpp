@@ -1,7 +1,9 @@
 #pragma once
 
+#include <chrono>
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <optional>
 #include <span>
 #include <string>
@@ -9,6 +11,7 @@
 
 #include "vigil/adapters/recording/bag_writer.hpp"
 #include "vigil/adapters/recording/cdr_writer.hpp"
+#include "vigil/adapters/recording/standard_topics.hpp"
 #include "vigil/runtime/flight_recording.hpp"
 #include "vigil/runtime/recorder.hpp"
 
@@ -19,8 +22,9 @@ struct BagRecorderOptions {
   /// Only every so manieth tick is kept (and always the first and the last), with the least clearances and any fallback
   /// of those left out. Above 1 nothing can be recomputed from the recording. At least 1.
   std::uint64_t keep_every = 1;
-  /// Of the first message: time since 1970 in a live flight; 0 where nobody asks when it was simulated.
-  std::int64_t began_ns = 0;
+  /// Time since 1970, in a live flight: asked when it begins, and at its first tick. None: a simulated flight begins at
+  /// 0.
+  std::function<std::chrono::nanoseconds()> time_of_day{};
   BagOptions bag{};
 };
 
@@ -55,6 +59,8 @@ class BagRecorder final : public runtime::Recorder {
   void write(std::size_t topic, double time_s);
   void write_event_of(const runtime::LoggedEvent& event);
   void begin_file();
+  void write_mission();
+  void set_time_of_day();
   [[nodiscard]] std::int64_t stamp_ns(double time_s) const;
   template <class Write>
   void guarded(const Write& write) noexcept;
@@ -62,9 +68,11 @@ class BagRecorder final : public runtime::Recorder {
   std::filesystem::path folder_;
   BagRecorderOptions options_;
   runtime::RecordingHead head_;
+  std::int64_t began_ns_ = 0;
   double first_time_s_ = 0.0;
   double last_time_s_ = 0.0;
   CdrWriter writer_;
+  std::optional<StandardTopics> standard_;
   std::optional<BagWriter> bag_;
 
   std::uint64_t seen_ = 0;          ///< ticks given so far

@@ -78,7 +78,6 @@ void BagWriter::begin_file() {
   }
   leave_room();
   file_.emplace(next_name(), topics_, options_.must_survive_power);
-  write_metadata();
 }
 
 bool BagWriter::is_full() const { return options_.split_bytes > 0 && file_->bytes() >= options_.split_bytes; }

@@ -19,7 +19,8 @@ struct BagOptions {
 };
 
 /// A rosbag2 directory while it is written: files recording_0.db3, recording_1.db3, ... and metadata.yaml, which is
-/// there from the beginning, so that what was cut off can be opened as well. Failures are RecordingErrors.
+/// there once write_metadata() was called, so that what was cut off can be opened as well. Failures are
+/// RecordingErrors.
 class BagWriter {
  public:
   /// Creates the first file. The folder is there.
@@ -30,6 +31,8 @@ class BagWriter {
   /// Whether the file has grown to its size: begin_file() is due.
   [[nodiscard]] bool is_full() const;
   void begin_file();
+  /// Tells others of the bag's files: when a file's first message was committed.
+  void write_metadata() const;
   /// Makes what was written survive this program. RecordingError where the disk has less room than is to be left.
   void commit();
   /// Where much has piled up since the last time.
@@ -40,7 +43,6 @@ class BagWriter {
  private:
   [[nodiscard]] std::filesystem::path next_name() const;
   void leave_room() const;
-  void write_metadata() const;
 
   std::filesystem::path folder_;
   std::vector<Topic> topics_;

@@ -25,6 +25,11 @@ struct Put {
   }
   void count(std::size_t value) { writer.put(std::uint64_t{value}); }
   void index(int value) { writer.put(std::int32_t{value}); }
+  void places(const std::vector<Vec2>& values) {
+    writer.count(2 * values.size());
+    for (const Vec2& place : values)
+      for (const double value : {place.x(), place.y()}) writer.put(value);
+  }
   template <class Enum>
   void choice(Enum value, int /*values*/) {
     writer.put(static_cast<std::uint8_t>(value));
@@ -44,6 +49,11 @@ struct Get {
   }
   void count(std::size_t& value) { value = reader.u64(); }
   void index(int& value) { value = reader.i32(); }
+  void places(std::vector<Vec2>& values) {
+    const std::vector<double> numbers = reader.sequence<double>();
+    if (numbers.size() % 2 != 0) throw RecordingError("the mission's message has a place without its y");
+    for (std::size_t n = 0; n < numbers.size(); n += 2) values.push_back({numbers[n], numbers[n + 1]});
+  }
   template <class Enum>
   void choice(Enum& value, int values) {
     const int code = reader.u8();
@@ -61,6 +71,9 @@ struct Sane {
   void operator()(const std::optional<double>& value) { (*this)(value.value_or(0.0)); }
   void count(std::size_t value) { holds = holds && value >= 1 && value <= kMostDrones; }
   void index(int value) { holds = holds && value >= 1 && value <= ergodic::Basis::kLargestIndex; }
+  void places(const std::vector<Vec2>& values) {
+    for (const Vec2& place : values) holds = holds && place.allFinite();
+  }
   template <class Enum>
   void choice(Enum /*value*/, int /*values*/) {}
 
@@ -77,7 +90,8 @@ void check(const swarm::SwarmParameters& p) {
   const bool is_flying = p.barrier.u_max_m_s > 0.0 && p.barrier.separation_m > 0.0 && p.basis_smoothness > 0.0;
   const bool is_bounded = p.command_delay_s <= swarm::kLongestPredictionS && p.memory_s.value_or(1.0) > 0.0 &&
                           p.look_ahead_s.value_or(1.0) > 0.0;
-  if (!(sane.holds && is_field && is_ticking && is_flying && is_bounded))
+  const bool has_starts = p.starts.empty() || p.starts.size() == p.drones;
+  if (!(sane.holds && has_starts && is_field && is_ticking && is_flying && is_bounded))
     throw RecordingError("the mission's message has parameters that no mission has");
 }
 
@@ -122,7 +136,8 @@ swarm::SwarmPast past_in(CdrReader& reader) {
 void write_head(CdrWriter& writer, const runtime::RecordingHead& head) {
   const swarm::SwarmPast past = head.start.past.value_or(swarm::SwarmPast{});
   const auto past_doubles = static_cast<std::size_t>(past.coverage.sum.size() + past.coverage.past_averages.size());
-  writer.start(head.mission_text.size() + sizeof(double) * past_doubles + kParameterBytes);
+  const std::size_t doubles = past_doubles + 2 * head.parameters.starts.size();
+  writer.start(head.mission_text.size() + sizeof(double) * doubles + kParameterBytes);
   writer.put(std::string_view(head.mission_text));
   writer.put(head.keep_every);
   Put put{writer};

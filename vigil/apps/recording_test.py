@@ -1,0 +1,177 @@
+"""Tests recordings as a whole: python3 recording_test.py VIGIL MISSIONS
+
+What was flown can be flown again, bit for bit; one byte that is not as it was written is found; and whenever a live
+program is killed, what it had written is sound.
+"""
+
+import contextlib
+import json
+import pathlib
+import random
+import resource
+import sqlite3
+import statistics
+import struct
+import subprocess
+import sys
+import tempfile
+import time
+import unittest
+
+from console_client import Program, WebSocket
+
+VIGIL, MISSIONS = sys.argv[1], pathlib.Path(sys.argv[2])
+KILLS = 50
+SEED = 20261122
+FLOWN = "/vigil/tick"
+
+
+def run(*arguments):
+    return subprocess.run([VIGIL, *map(str, arguments)], capture_output=True, text=True, timeout=300, check=False)
+
+
+def verified(directory):
+    result = run("replay", directory, "--verify", "--json")
+    return result.returncode, json.loads(result.stdout) if result.stdout else result.stderr
+
+
+def ticks_in(database):
+    """[(id, message)] of a bag's ticks."""
+    return database.execute("SELECT messages.id, data FROM messages JOIN topics ON topics.id = topic_id "
+                            "WHERE topics.name = ? ORDER BY messages.id", (FLOWN,)).fetchall()
+
+
+class Place:
+    """Where a tick's numbers stand in its message: protocol/vigil_msgs/msg/Tick.msg, after CDR's rules."""
+
+    OBSERVED = 100  # encapsulation, what concerns the whole tick, the sequence's length and its alignment
+
+    def __init__(self, drones):
+        modes = self.OBSERVED + 64 * drones
+        self.decided = -(-(modes + 4 + drones - 4) // 4) * 4 + 4 + 4  # after the modes, their length and its own
+        self.decided = 4 + -(-(self.decided - 4) // 8) * 8
+
+    def observed(self, drone, number):
+        return self.OBSERVED + 64 * drone + 8 * number
+
+    def velocity(self, drone, axis):
+        return self.decided + 72 * drone + 16 + 8 * axis
+
+
+class Recordings(unittest.TestCase):
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.folder = pathlib.Path(folder.name)
+        self.random = random.Random(SEED)
+
+    def simulated(self, mission, *more):
+        out = self.folder / "flight"
+        result = run("simulate", MISSIONS / mission, "--out", out, *more)
+        self.assertEqual(result.returncode, 0, result.stderr)
+        return out
+
+    def test_one_flipped_byte_of_a_velocity_or_observation_is_found_with_its_tick_and_drone(self):
+        out = self.simulated("paper.yaml", "--seconds", 10)
+        drones, place = 3, Place(3)
+        with contextlib.closing(sqlite3.connect(out / "recording" / "recording_0.db3")) as database:
+            ticks = ticks_in(database)
+            for _ in range(20):
+                tick, drone = self.random.randrange(len(ticks)), self.random.randrange(drones)
+                is_velocity = self.random.random() < 0.5
+                at = (place.velocity(drone, self.random.randrange(2)) if is_velocity
+                      else place.observed(drone, self.random.randrange(8))) + self.random.randrange(8)
+                number, message = ticks[tick]
+                changed = bytearray(message)
+                changed[at] ^= 1 << self.random.randrange(8)
+                database.execute("UPDATE messages SET data = ? WHERE id = ?", (bytes(changed), number))
+                database.commit()
+                code, verdict = verified(out)
+                self.assertEqual(code, 1, verdict)
+                self.assertEqual(verdict["difference"]["tick"], tick)
+                self.assertEqual(verdict["difference"]["drone"], f"cf{drone + 1}")
+                self.assertEqual("velocity asked for" in verdict["difference"]["what"], is_velocity)
+                self.assertEqual(verdict["same"], tick)
+                database.execute("UPDATE messages SET data = ? WHERE id = ?", (message, number))
+                database.commit()
+        self.assertEqual(verified(out)[0], 0)
+
+    def test_flying_on_without_a_change_leads_to_what_happened_and_with_one_elsewhere(self):
+        out = self.simulated("paper.yaml", "--seconds", 20, "--set", "control.controller=gradient")
+
+        def flown_on(*more):
+            result = run("replay", out, "--from", 5, "--json", *more)
+            self.assertEqual(result.returncode, 0, result.stderr)
+            return json.loads(result.stdout)
+
+        same = flown_on()
+        self.assertEqual(same["from_s"], 5)
+        self.assertEqual(same["happened"]["metric"]["last"], same["would_have"]["metric"]["last"])
+        other = flown_on("--set", "control.speed_limit_m_s=0.15", "--out", self.folder / "other")
+        self.assertEqual(other["happened"]["metric"]["last"], same["happened"]["metric"]["last"])
+        self.assertNotEqual(other["would_have"]["metric"]["last"], other["happened"]["metric"]["last"])
+        code, verdict = verified(self.folder / "other")
+        self.assertEqual((code, verdict["same"]), (0, 750), verdict)
+        self.assertEqual(run("replay", out, "--from", 30).returncode, 3)
+        self.assertEqual(run("replay", out, "--from", 5, "--set", "control.rate_hz=20").returncode, 3)
+        self.assertEqual(run("replay", out).returncode, 2)
+
+    def test_tables_have_a_line_of_every_tick(self):
+        out = self.simulated("paper.yaml", "--seconds", 10)
+        result = run("export", out, "--out", self.folder / "tables")
+        self.assertEqual(result.returncode, 0, result.stderr)
+        self.assertEqual(len((self.folder / "tables" / "ticks.csv").read_text().splitlines()), 501)
+        self.assertEqual(len((self.folder / "tables" / "drones.csv").read_text().splitlines()), 1501)
+        self.assertEqual(run("export", out, "--out", self.folder / "tables").returncode, 2)
+
+    def test_a_disk_that_takes_no_more_is_told_at_once_and_the_flight_goes_on(self):
+        out = self.folder / "live"
+        with Program(VIGIL, MISSIONS / "paper.yaml", "--record", out) as program:
+            client = WebSocket(program.port)
+            self.addCleanup(client.close)
+            client.hello()
+            while client.snapshot()["tick"] < 25:
+                pass
+            log = out / "recording" / "recording_0.db3-wal"
+            resource.prlimit(program.process.pid, resource.RLIMIT_FSIZE, (log.stat().st_size + 20_000,) * 2)
+            event = client.wait_for_event("recording")
+            self.assertEqual((event["source"], event["severity"]), ("program", "alarm"))
+            self.assertIn("recording_0.db3", event["text"])
+            before = client.snapshot()["tick"]
+            while client.snapshot()["tick"] < before + 50:
+                pass
+        code, verdict = verified(out)
+        self.assertEqual(code, 0, verdict)
+        self.assertGreater(verdict["ticks"], 10)
+        self.assertNotEqual(verdict["incomplete"], "")
+
+    def test_whenever_a_live_program_is_killed_its_recording_is_sound_and_can_be_flown_again(self):
+        lost_s, ticks = [], 0
+        for number in range(KILLS):
+            out = self.folder / f"live-{number}"
+            mission = ("paper.yaml", "wildfire.yaml")[number % 2]
+            program = Program(VIGIL, MISSIONS / mission, "--record", out)
+            deadline = time.monotonic() + 60
+            while not (out / "recording" / "metadata.yaml").exists():  # the recording has begun
+                self.assertLess(time.monotonic(), deadline)
+            time.sleep(self.random.uniform(0.0, 0.8))  # the moment is what is drawn
+            program.process.kill()
+            killed_ns = time.time_ns()
+            program.process.communicate()
+            code, verdict = verified(out)
+            self.assertEqual(code, 0, (number, verdict))
+            self.assertEqual(verdict["same"], verdict["ticks"])
+            self.assertNotEqual(verdict["incomplete"], "")
+            with contextlib.closing(sqlite3.connect(out / "recording" / "recording_0.db3")) as database:
+                self.assertEqual(database.execute("PRAGMA integrity_check").fetchall(), [("ok",)])
+                newest_ns, = database.execute("SELECT max(timestamp) FROM messages").fetchone()
+            lost_s.append((killed_ns - newest_ns) / 1e9)
+            ticks += verdict["ticks"]
+        self.assertGreater(ticks, KILLS)
+        print(f"{KILLS} kills, seed {SEED}: {ticks} ticks flown again; between the newest message and the kill: median "
+              f"{statistics.median(lost_s):.3f} s, most {max(lost_s):.3f} s", flush=True)
+        self.assertLess(statistics.median(lost_s), 0.1)
+
+
+if __name__ == "__main__":
+    unittest.main(argv=sys.argv[:1])
