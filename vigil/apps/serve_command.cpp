@@ -4,6 +4,7 @@
 #include <cstdio>
 #include <memory>
 #include <optional>
+#include <thread>
 #include <utility>
 
 #include <fmt/format.h>
@@ -22,6 +23,7 @@
 #include "vigil/runtime/mission_file.hpp"
 #include "vigil/runtime/mission_writer.hpp"
 #include "vigil/runtime/saved_flight.hpp"
+#include "vigil/runtime/thread_priority.hpp"
 
 namespace vigil::apps {
 namespace {
@@ -124,6 +126,13 @@ console::ServerOptions server_options(const ServeOptions& options, const std::st
   return result;
 }
 
+/// Whether the system will give the control thread real-time priority: a thread of its own tries.
+bool ticks_may_come_first() {
+  bool may = false;
+  std::thread([&may] { may = runtime::take_real_time_priority(); }).join();
+  return may;
+}
+
 int run(const ServeOptions& options, const std::string& version) {
   runtime::Mission mission = choose_mission(options.mission, options.settings);
   std::shared_ptr<runtime::FlightStore> store;
@@ -146,6 +155,8 @@ int run(const ServeOptions& options, const std::string& version) {
       store);
   catch_interrupts();
   fmt::print("vigil: {} at {}\n", mission.name, server.url());
+  if (!ticks_may_come_first())
+    fmt::print("vigil: without real-time priority ticks begin late on a busy machine; `ulimit -r 1` would allow it\n");
   if (saved) fmt::print("vigil: goes on where it was; drones in the air hold until somebody resumes them\n");
   std::fflush(stdout);
   if (ros) ros->attach(server);

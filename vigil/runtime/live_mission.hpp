@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <thread>
 
@@ -10,13 +11,20 @@
 
 namespace vigil::runtime {
 
-/// A mission that is being flown, in real time, by a control thread of its own.
+/// What lets time pass for a control loop, on the control thread, until it is asked to stop.
+using Drive = std::function<void(const std::stop_token& stop, ControlLoop& loop)>;
+
+/// The system's monotonic clock, and sleep in between.
+void drive_in_real_time(const std::stop_token& stop, ControlLoop& loop);
+
+/// A mission that is being flown by a control thread of its own.
 class LiveMission {
  public:
   /// `world`: the fleet where it is a simulated one, otherwise null. `epoch` tells missions apart that one program
   /// flies one after the other. The recorder may be null.
   LiveMission(Mission mission, std::unique_ptr<Fleet> fleet, VirtualFleet* world,
-              std::unique_ptr<QueuedRecorder> recorder, const FlightStart& start, std::uint32_t epoch);
+              std::unique_ptr<QueuedRecorder> recorder, const FlightStart& start, std::uint32_t epoch,
+              Drive drive = drive_in_real_time);
   /// Ends the control thread.
   ~LiveMission();
   LiveMission(const LiveMission&) = delete;
@@ -31,6 +39,7 @@ class LiveMission {
   [[nodiscard]] const Mission& mission() const noexcept { return mission_; }  ///< as it was at first
   [[nodiscard]] std::uint32_t epoch() const noexcept { return epoch_; }
   [[nodiscard]] ControlLoop& loop() noexcept { return loop_; }
+  [[nodiscard]] const ControlLoop& loop() const noexcept { return loop_; }
   [[nodiscard]] const QueuedRecorder* recorder() const noexcept { return recorder_.get(); }
   [[nodiscard]] QueuedRecorder* recorder() noexcept { return recorder_.get(); }
 
@@ -41,6 +50,7 @@ class LiveMission {
   std::uint32_t epoch_;
   LiveFlight flight_;
   ControlLoop loop_;
+  Drive drive_;
   std::jthread thread_;
   bool is_finished_ = false;
 };

@@ -1,0 +1,91 @@
+#include "vigil/runtime/event_words.hpp"
+
+#include <set>
+
+#include <gtest/gtest.h>
+
+#include "vigil/swarm/names.hpp"
+
+namespace vigil::runtime {
+namespace {
+
+using swarm::Activity;
+using swarm::CommandKind;
+using swarm::VehicleMode;
+
+constexpr Activity kLast = Activity::kTravelling;
+
+std::vector<Activity> all_activities() {
+  std::vector<Activity> all;
+  for (int n = 0; n <= static_cast<int>(kLast); ++n) all.push_back(static_cast<Activity>(n));
+  return all;
+}
+
+swarm::DroneSnapshot in_mode(VehicleMode mode, Activity activity = Activity::kActive) {
+  swarm::DroneSnapshot drone;
+  drone.mode = mode;
+  drone.activity = activity;
+  return drone;
+}
+
+TEST(EventWordsTest, Every_activity_has_words_of_its_own_that_name_the_drone) {
+  std::set<std::string> texts;
+  for (const Activity activity : all_activities()) {
+    const EventWords words = words_for("cf2", activity, {}, 2, 3);
+    EXPECT_NE(words.text.find("cf2"), std::string::npos) << swarm::name_of(activity);
+    EXPECT_FALSE(words.effect.empty()) << swarm::name_of(activity);
+    texts.insert(words.text);
+  }
+  EXPECT_EQ(texts.size(), all_activities().size());
+}
+
+TEST(EventWordsTest, What_is_worse_than_a_wish_of_an_operator_warns_and_says_what_to_do_next) {
+  for (const Activity activity : all_activities()) {
+    const EventWords words = words_for("cf2", activity, {}, 2, 3);
+    EXPECT_TRUE(words.severity == Severity::kInfo || !words.next.empty()) << swarm::name_of(activity);
+  }
+  for (const Activity lost : {Activity::kEmergencyStop, Activity::kMarkedFailed, Activity::kVehicleFailed,
+                              Activity::kTrackingLost, Activity::kLinkLost})
+    EXPECT_EQ(words_for("cf2", lost, {}, 2, 3).severity, Severity::kAlarm) << swarm::name_of(lost);
+  for (const Activity wished : {Activity::kActive, Activity::kGrounded, Activity::kHeld, Activity::kTravelling})
+    EXPECT_EQ(words_for("cf2", wished, {}, 2, 3).severity, Severity::kInfo) << swarm::name_of(wished);
+}
+
+TEST(EventWordsTest, Where_a_drone_drops_out_it_says_how_many_go_on) {
+  EXPECT_NE(words_for("cf2", Activity::kLanding, {}, 2, 3).effect.find("2 of 3 drones cover"), std::string::npos);
+  EXPECT_NE(words_for("cf2", Activity::kLanding, {}, 0, 3).effect.find("no drone covers"), std::string::npos);
+  EXPECT_EQ(words_for("cf2", Activity::kLanding, {}, 0, 3).effect.find("take over"), std::string::npos);
+}
+
+TEST(EventWordsTest, A_low_battery_is_told_in_percent) {
+  swarm::DroneSnapshot drone;
+  drone.battery = 0.174;
+  EXPECT_EQ(words_for("cf2", Activity::kBatteryLow, drone, 2, 3).text, "cf2: battery at 17 %");
+}
+
+TEST(EventWordsTest, A_refusal_says_what_stands_in_the_way) {
+  const auto refused = [](CommandKind wish, const swarm::DroneSnapshot& drone) {
+    return refusal_words("cf2", wish, drone);
+  };
+  const auto says = [](const std::string& words, const char* what) {
+    return words.find("cf2") != std::string::npos && words.find(what) != std::string::npos;
+  };
+  const swarm::DroneSnapshot down = in_mode(VehicleMode::kGrounded, Activity::kGrounded);
+  const swarm::DroneSnapshot flying = in_mode(VehicleMode::kFlying);
+  EXPECT_TRUE(says(refused(CommandKind::kTakeOff, flying), "in the air"));
+  EXPECT_TRUE(says(refused(CommandKind::kTakeOff, in_mode(VehicleMode::kGrounded, Activity::kMarkedFailed)), "failed"));
+  EXPECT_TRUE(says(refused(CommandKind::kTakeOff, down), "pilot"));
+  EXPECT_TRUE(says(refused(CommandKind::kLand, down), "on the ground already"));
+  EXPECT_TRUE(says(refused(CommandKind::kHold, down), "on the ground"));
+  EXPECT_TRUE(says(refused(CommandKind::kHold, flying), "pilot"));
+  EXPECT_TRUE(says(refused(CommandKind::kGoTo, down), "on the ground"));
+  EXPECT_TRUE(says(refused(CommandKind::kGoTo, flying), "cannot fly"));
+  EXPECT_TRUE(says(refused(CommandKind::kResume, flying), "neither held"));
+  EXPECT_TRUE(says(refused(CommandKind::kGiveBack, flying), "nobody took"));
+  EXPECT_TRUE(says(refused(CommandKind::kEmergencyStop, flying), "cannot"));
+  EXPECT_TRUE(says(refused(CommandKind::kLand, in_mode(VehicleMode::kUnknown)), "never heard of"));
+  EXPECT_TRUE(says(refused(CommandKind::kLand, in_mode(VehicleMode::kFalling, Activity::kEmergencyStop)), "stopped"));
+}
+
+}  // namespace
+}  // namespace vigil::runtime
