@@ -83,6 +83,36 @@ TEST(TrailRingTest, The_newest_points_are_kept_oldest_first_drone_by_drone) {
   }
 }
 
+TEST(TrailRingTest, Where_the_clock_runs_fast_points_between_two_snapshots_lie_on_the_way) {
+  constexpr double kRadians = 0.6;  // a second
+  TrailRing ring(1);
+  for (int n = 0; n <= 60; ++n) {
+    swarm::Snapshot snapshot(1);
+    snapshot.time_s = n;
+    snapshot.drones[0].age_s = 0.0;
+    snapshot.drones[0].position = {std::cos(kRadians * n), std::sin(kRadians * n)};
+    snapshot.drones[0].velocity = kRadians * Vec2(-std::sin(kRadians * n), std::cos(kRadians * n));
+    ring.add(snapshot);
+  }
+  const Trails trails = ring.trails();
+  ASSERT_EQ(trails.points, static_cast<std::size_t>(60.0 / trails.spacing_s) + 1);
+  for (std::size_t k = 0; k < trails.points; ++k) {
+    const double time_s = trails.newest_s - static_cast<double>(trails.points - 1 - k) * trails.spacing_s;
+    EXPECT_NEAR(trails.xy[2 * k], std::cos(kRadians * time_s), 1e-3);
+    EXPECT_NEAR(trails.xy[2 * k + 1], std::sin(kRadians * time_s), 1e-3);
+  }
+}
+
+TEST(TrailRingTest, After_a_leap_in_time_a_trail_begins_anew) {
+  TrailRing ring(2);
+  ring.add(at(10.0, 1.0));
+  ring.add(at(10'000.0, 2.0));
+  EXPECT_EQ(ring.trails().points, 1U);
+  ring.add(at(0.0, 3.0));
+  EXPECT_EQ(ring.trails().points, 1U);
+  EXPECT_EQ(ring.trails().newest_s, 0.0);
+}
+
 TEST(TrailRingTest, However_many_drones_there_are_the_memory_is_bounded) {
   EXPECT_LE(TrailRing(10'000).trails().points, 480U);
   TrailRing crowd(10'000);

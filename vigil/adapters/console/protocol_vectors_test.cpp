@@ -12,7 +12,7 @@ namespace {
 
 // The page's tests read the same files. Where this fails on purpose: build/dev/.../protocol_vectors protocol/vectors
 TEST(ProtocolVectorsTest, What_the_program_says_is_what_the_files_hold) {
-  const std::filesystem::path folder(VIGIL_VECTORS_DIR);
+  const std::filesystem::path folder(VIGIL_PROTOCOL_DIR "/vectors");
   std::size_t files = 0;
   for (const auto& entry : std::filesystem::directory_iterator(folder)) files += entry.is_regular_file() ? 1U : 0U;
   EXPECT_EQ(files, protocol_vectors().size());

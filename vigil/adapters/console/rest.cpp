@@ -46,6 +46,8 @@ HttpAnswer not_found() {
   return refusal(404, "not_found", "there is nothing at this address; see protocol/openapi.json");
 }
 
+HttpAnswer nothing_flies() { return refusal(503, "not_now", "nothing is flown yet; try again"); }
+
 constexpr std::string_view kNotBuilt =
     "<!doctype html><html lang=\"en\"><meta charset=\"utf-8\"><title>vigil</title><body><h1>vigil is "
     "running</h1><p>The "
@@ -54,10 +56,14 @@ constexpr std::string_view kNotBuilt =
 
 }  // namespace
 
+HttpAnswer too_large() {
+  return refusal(413, "too_large", fmt::format("a request has at most {} bytes", kMostMessageBytes));
+}
+
 const std::vector<std::pair<std::string, std::string>>& security_headers() {
   static const std::vector<std::pair<std::string, std::string>> kHeaders{
       {"Content-Security-Policy",
-       "default-src 'none'; script-src 'self'; style-src 'self' 'unsafe-inline'; img-src 'self' data: blob:; font-src "
+       "default-src 'none'; script-src 'self'; style-src 'self'; img-src 'self' data: blob:; font-src "
        "'self'; connect-src 'self'; worker-src 'self'; manifest-src 'self'; base-uri 'none'; form-action 'none'; "
        "frame-ancestors 'none'"},
       {"X-Content-Type-Options", "nosniff"},
@@ -91,6 +97,7 @@ void Rest::answer_api(const HttpRequest& request, const std::string& path, const
     answer.headers.emplace_back("WWW-Authenticate", "Bearer");
     return reply(std::move(answer));
   }
+  if (request.body.size() > kMostMessageBytes) return reply(too_large());
   const bool is_get = request.method == "GET";
   const bool is_post = request.method == "POST";
   if (is_post && !gate_.admits_origin(request.origin, request.host))
@@ -99,15 +106,10 @@ void Rest::answer_api(const HttpRequest& request, const std::string& path, const
     return reply(refusal(415, "wrong_type", "send the header Content-Type: application/json"));
   if (path == "/api/state" && is_get) {
     const Json state = hub_.state();
-    return reply(state.is_null() ? refusal(503, "not_now", "nothing is flown yet; try again")
-                                 : json_answer(200, state));
+    return reply(state.is_null() ? nothing_flies() : json_answer(200, state));
   }
   if (path == "/api/mission" && is_get) return reply(mission(request, query));
-  if (path == "/api/areas" && is_get && hub_.mission() != nullptr) {
-    HttpAnswer answer = json_answer(200, areas_geojson(*hub_.mission()));
-    answer.content_type = "application/geo+json";
-    return reply(std::move(answer));
-  }
+  if (path == "/api/areas" && is_get) return reply(areas());
   if (path == "/api/areas" && is_post) return import_areas(request, *role, reply);
   if (path == "/api/commands" && is_post) return answer_command(parse_client_message(request.body), *role, reply);
   if (path == "/api/preview" && is_post) return answer_command(parse_preview(request.body), *role, reply);
@@ -116,9 +118,16 @@ void Rest::answer_api(const HttpRequest& request, const std::string& path, const
   reply(not_found());
 }
 
+HttpAnswer Rest::areas() const {
+  if (hub_.mission() == nullptr) return nothing_flies();
+  HttpAnswer answer = json_answer(200, areas_geojson(*hub_.mission()));
+  answer.content_type = "application/geo+json";
+  return answer;
+}
+
 HttpAnswer Rest::mission(const HttpRequest& request, const std::string& query) const {
   const runtime::Mission* mission = hub_.mission();
-  if (mission == nullptr) return refusal(503, "not_now", "nothing is flown yet; try again");
+  if (mission == nullptr) return nothing_flies();
   const bool wants_yaml = query == "format=yaml" || request.accept.find("yaml") != std::string::npos;
   if (!wants_yaml) return json_answer(200, mission_json(*mission));
   return {200, "application/yaml", shared(runtime::mission_yaml(*mission)), {{"Cache-Control", "no-store"}}};
@@ -136,7 +145,7 @@ void Rest::answer_command(const std::variant<ClientMessage, MessageRefusal>& par
 }
 
 void Rest::import_areas(const HttpRequest& request, Role role, const Reply& reply) {
-  if (hub_.mission() == nullptr) return reply(refusal(503, "not_now", "nothing is flown yet; try again"));
+  if (hub_.mission() == nullptr) return reply(nothing_flies());
   std::variant<std::vector<runtime::TargetEdit>, std::string> edits = edits_of_geojson(request.body, *hub_.mission());
   if (const auto* problem = std::get_if<std::string>(&edits)) return reply(refusal(400, "invalid", *problem));
   const ClientMessage message{0, "edit",

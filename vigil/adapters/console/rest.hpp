@@ -49,6 +49,7 @@ class Rest {
   void answer_api(const HttpRequest& request, const std::string& path, const std::string& query, const Reply& reply);
   void answer_command(const std::variant<ClientMessage, MessageRefusal>& parsed, Role role, const Reply& reply);
   void import_areas(const HttpRequest& request, Role role, const Reply& reply);
+  [[nodiscard]] HttpAnswer areas() const;
   [[nodiscard]] HttpAnswer mission(const HttpRequest& request, const std::string& query) const;
   [[nodiscard]] HttpAnswer page_file(const HttpRequest& request, const std::string& path) const;
 
@@ -56,6 +57,9 @@ class Rest {
   const Gate& gate_;
   const Page& page_;
 };
+
+/// The refusal of a request whose headers or body have more bytes than the server reads.
+[[nodiscard]] HttpAnswer too_large();
 
 /// The headers that every answer has: what browsers may do with it, and who may show it.
 [[nodiscard]] const std::vector<std::pair<std::string, std::string>>& security_headers();

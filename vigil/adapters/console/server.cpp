@@ -17,6 +17,7 @@
 #include <fmt/format.h>
 
 #include "vigil/adapters/console/desk_thread.hpp"
+#include "vigil/adapters/console/http_wire.hpp"
 #include "vigil/adapters/console/hub.hpp"
 #include "vigil/adapters/console/outbound.hpp"
 #include "vigil/adapters/console/rest.hpp"
@@ -35,14 +36,12 @@ using namespace std::chrono_literals;
 
 using PlainStream = beast::tcp_stream;
 using TlsStream = beast::ssl_stream<beast::tcp_stream>;
-using Request = http::request<http::string_body>;
+using Request = WireRequest;
 
 constexpr auto kHttpTimeout = 30s;
 constexpr auto kPollEvery = 5ms;
 constexpr auto kOverEvery = 100ms;
-constexpr std::uint32_t kMostHeaderBytes = 16 * 1024;
 constexpr int kSendBufferBytes = 128 * 1024;  // what the kernel holds back from a slow client is old when it arrives
-constexpr std::string_view kProtocol = "vigil.v1";
 
 /// What a connection needs of the server; it outlives all of them.
 struct Host {
@@ -51,34 +50,6 @@ struct Host {
   const Gate& gate;
   Seats& seats;
 };
-
-std::string header(const Request& request, http::field field) {
-  const auto found = request.find(field);
-  return found == request.end() ? std::string() : std::string(found->value());
-}
-
-bool offers_protocol(const Request& request) {
-  for (const auto& offered : http::token_list(request[http::field::sec_websocket_protocol]))
-    if (std::string_view(offered.data(), offered.size()) == kProtocol) return true;
-  return false;
-}
-
-http::response<http::string_body> response_of(const HttpAnswer& answer, const Request& request) {
-  http::response<http::string_body> response(static_cast<http::status>(answer.status), request.version());
-  response.set(http::field::server, "vigil");
-  response.set(http::field::content_type, answer.content_type);
-  for (const auto& [name, value] : security_headers()) response.set(name, value);
-  for (const auto& [name, value] : answer.headers) response.set(name, value);
-  response.keep_alive(request.keep_alive());
-  if (answer.body) response.body() = *answer.body;
-  response.prepare_payload();
-  if (request.method() == http::verb::head) response.body().clear();
-  return response;
-}
-
-HttpAnswer upgrade_refusal(int status, std::string text) {
-  return {status, "text/plain; charset=utf-8", std::make_shared<const std::string>(std::move(text) + "\n"), {}};
-}
 
 /// A WebSocket of one client. The sockets' thread only.
 template <typename Stream>
@@ -220,12 +191,10 @@ class Visit final : public Guest, public std::enable_shared_from_this<Visit<Stre
  private:
   void read_next() {
     parser_.emplace();
-    parser_->header_limit(kMostHeaderBytes);
-    parser_->body_limit(kMostMessageBytes);
+    bound(*parser_);
     beast::get_lowest_layer(stream_).expires_after(kHttpTimeout);
     http::async_read(stream_, buffer_, *parser_, [self = this->shared_from_this()](Error error, std::size_t) {
-      if (error == http::error::body_limit || error == http::error::header_limit)
-        return self->send(upgrade_refusal(413, "that is too large"), false);
+      if (error == http::error::body_limit || error == http::error::header_limit) return self->send(too_large(), false);
       if (error) return self->finish();
       self->take();
     });
@@ -234,36 +203,21 @@ class Visit final : public Guest, public std::enable_shared_from_this<Visit<Stre
   void take() {
     request_ = parser_->release();
     if (websocket::is_upgrade(request_)) return upgrade();
-    const HttpRequest request{std::string(request_.method_string()),
-                              std::string(request_.target()),
-                              header(request_, http::field::host),
-                              header(request_, http::field::origin),
-                              header(request_, http::field::authorization),
-                              header(request_, http::field::content_type),
-                              header(request_, http::field::accept),
-                              header(request_, http::field::if_none_match),
-                              std::move(request_.body())};
     // The answer may come later, when the connection is gone; then nobody is told.
-    host_.rest.answer(request, [self = this->shared_from_this()](const HttpAnswer& answer) {
+    host_.rest.answer(http_request(request_), [self = this->shared_from_this()](const HttpAnswer& answer) {
       self->send(answer, self->request_.keep_alive());
     });
   }
 
   void upgrade() {
-    const std::string host = header(request_, http::field::host);
-    if (!host_.gate.admits_host(host)) return send(upgrade_refusal(421, "this name is not one of the server's"), false);
-    if (!host_.gate.admits_origin(header(request_, http::field::origin), host))
-      return send(upgrade_refusal(403, "another site's page may not come in"), false);
-    if (request_.target() != "/live") return send(upgrade_refusal(404, "the WebSocket is at /live"), false);
-    if (!offers_protocol(request_))
-      return send(upgrade_refusal(400, fmt::format("this server speaks {}", kProtocol)), false);
+    if (const auto refusal = upgrade_refusal(request_, host_.gate)) return send(*refusal, false);
     const auto talk = std::make_shared<Talk<Stream>>(std::move(stream_), host_, origin_);
     host_.seats.seat(talk);
     talk->begin(request_);
   }
 
   void send(const HttpAnswer& answer, bool goes_on) {
-    response_ = response_of(answer, request_);
+    response_ = wire_response(answer, request_);
     if (!goes_on) response_.keep_alive(false);
     beast::get_lowest_layer(stream_).expires_after(kHttpTimeout);
     http::async_write(stream_, response_, [self = this->shared_from_this(), goes_on](Error error, std::size_t) {
@@ -281,9 +235,9 @@ class Visit final : public Guest, public std::enable_shared_from_this<Visit<Stre
   Host& host_;
   std::string origin_;
   beast::flat_buffer buffer_{kMostMessageBytes + kMostHeaderBytes};
-  std::optional<http::request_parser<http::string_body>> parser_;
+  std::optional<WireParser> parser_;
   Request request_;
-  http::response<http::string_body> response_;
+  WireResponse response_;
 };
 
 std::chrono::nanoseconds monotonic_now() { return std::chrono::steady_clock::now().time_since_epoch(); }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 namespace vigil::console {
 namespace {
@@ -24,17 +25,44 @@ TrailRing::TrailRing(std::size_t drones)
       spacing_s_(kKeptS / static_cast<double>(points_)),
       xy_(2 * drones * points_) {}
 
-void TrailRing::add(const swarm::Snapshot& snapshot) {
-  constexpr double kRounding = 1e-9;
-  if (rows_ > 0 && snapshot.time_s < newest_s_ + spacing_s_ - kRounding) return;
-  auto to = xy_.begin() + static_cast<std::ptrdiff_t>(2 * drones_ * (rows_ % points_));
+TrailRing::Moment TrailRing::moment_of(const swarm::Snapshot& snapshot) {
+  Moment moment{snapshot.time_s, {}, {}};
   for (const swarm::DroneSnapshot& drone : snapshot.drones) {
     const bool is_known = std::isfinite(drone.age_s);
-    *to++ = is_known ? static_cast<float>(drone.position.x()) : std::numeric_limits<float>::quiet_NaN();
-    *to++ = is_known ? static_cast<float>(drone.position.y()) : std::numeric_limits<float>::quiet_NaN();
+    for (const double place : {drone.position.x(), drone.position.y()})
+      moment.places.push_back(is_known ? place : std::numeric_limits<double>::quiet_NaN());
+    moment.velocities.insert(moment.velocities.end(), {drone.velocity.x(), drone.velocity.y()});
   }
+  return moment;
+}
+
+void TrailRing::add_row(const Moment& from, const Moment& to, double time_s) {
+  const double passed_s = to.time_s - from.time_s;
+  const double s = passed_s > 0.0 ? (time_s - from.time_s) / passed_s : 1.0;
+  const double place0 = (2.0 * s - 3.0) * s * s + 1.0;
+  const double velocity0 = passed_s * ((s - 2.0) * s + 1.0) * s;
+  const double velocity1 = passed_s * (s - 1.0) * s * s;
+  auto to_row = xy_.begin() + static_cast<std::ptrdiff_t>(2 * drones_ * (rows_ % points_));
+  for (std::size_t i = 0; i < 2 * drones_; ++i)
+    *to_row++ = static_cast<float>(s >= 1.0 ? to.places[i]
+                                            : place0 * from.places[i] + (1.0 - place0) * to.places[i] +
+                                                  velocity0 * from.velocities[i] + velocity1 * to.velocities[i]);
   ++rows_;
-  newest_s_ = snapshot.time_s;
+  newest_s_ = time_s;
+}
+
+void TrailRing::add(const swarm::Snapshot& snapshot) {
+  constexpr double kRounding = 1e-9;
+  const bool is_first = !last_ || snapshot.time_s > newest_s_ + kKeptS || snapshot.time_s < newest_s_;
+  if (!is_first && snapshot.time_s < newest_s_ + spacing_s_ - kRounding) return;
+  Moment now = moment_of(snapshot);
+  if (is_first) {
+    rows_ = 0;
+    add_row(now, now, now.time_s);
+  } else {
+    while (newest_s_ + spacing_s_ <= now.time_s + kRounding) add_row(*last_, now, newest_s_ + spacing_s_);
+  }
+  last_ = std::move(now);
 }
 
 Trails TrailRing::trails() const {

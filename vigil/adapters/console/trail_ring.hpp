@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
 #include <vector>
 
 #include "vigil/adapters/console/frames.hpp"
@@ -14,17 +15,28 @@ class TrailRing {
   /// Keeps up to about two minutes of mission time, and fewer points a drone the more drones there are.
   explicit TrailRing(std::size_t drones);
 
-  /// Keeps the places where a point is due.
+  /// Takes in where everybody is now. A point is kept of every spacing_s: where the clock runs so fast that several are
+  /// due since the last snapshot, they lie on the curve that has the places and velocities of both (cubic Hermite).
   void add(const swarm::Snapshot& snapshot);
   [[nodiscard]] Trails trails() const;
 
  private:
+  /// A moment of all drones: x, y by turns; places are NaN where they are not known.
+  struct Moment {
+    double time_s = 0.0;
+    std::vector<double> places;
+    std::vector<double> velocities;
+  };
+  [[nodiscard]] static Moment moment_of(const swarm::Snapshot& snapshot);
+  void add_row(const Moment& from, const Moment& to, double time_s);
+
   std::size_t drones_;
   std::size_t points_;
   double spacing_s_;
   std::vector<float> xy_;  ///< a ring of rows, one a moment, with all drones
   std::size_t rows_ = 0;   ///< ever written
   double newest_s_ = 0.0;
+  std::optional<Moment> last_;
 };
 
 }  // namespace vigil::console

@@ -1,0 +1,246 @@
+#include "vigil/adapters/console/rest.hpp"
+
+#include <algorithm>
+#include <fstream>
+#include <iterator>
+#include <set>
+
+#include <gtest/gtest.h>
+
+#include "vigil/adapters/console/console_for_tests.hpp"
+#include "vigil/runtime/mission_file.hpp"
+
+namespace vigil::console {
+namespace {
+
+using namespace std::chrono_literals;
+
+constexpr const char* kArea = R"({"type":"FeatureCollection","features":[{"type":"Feature","properties":{"name":"hall"},
+  "geometry":{"type":"Polygon","coordinates":[[[-0.5,10.5],[0,10.5],[0,11],[-0.5,10.5]]]}}]})";
+
+/// The console's REST interface on a flying swarm; `console.fly()` is the test's.
+class RestTest : public ::testing::Test {
+ protected:
+  explicit RestTest(std::optional<Tokens> tokens = {}) : console(std::move(tokens)) {}
+
+  static HttpRequest get(const std::string& target) {
+    HttpRequest request;
+    request.method = "GET";
+    request.target = target;
+    request.host = "127.0.0.1:8080";
+    return request;
+  }
+  static HttpRequest post(const std::string& target, std::string body) {
+    HttpRequest request = get(target);
+    request.method = "POST";
+    request.content_type = "application/json";
+    request.body = std::move(body);
+    return request;
+  }
+  static HttpRequest command(const Json& body) { return post("/api/commands", body.dump()); }
+  static HttpRequest preview(const Json& body) { return post("/api/preview", body.dump()); }
+
+  /// The one answer, once there is one.
+  HttpAnswer ask(const HttpRequest& request) {
+    std::vector<HttpAnswer> answers;
+    rest.answer(request, [&answers](HttpAnswer answer) { answers.push_back(std::move(answer)); });
+    console.pass_until([&] { return !answers.empty(); });
+    console.pass(200ms);
+    EXPECT_EQ(answers.size(), 1U) << request.method << request.target;
+    const std::string path = request.target.substr(0, request.target.find('?'));
+    given.insert(request.method + " " + path + " " + std::to_string(answers.at(0).status));
+    return answers.at(0);
+  }
+  int status(const HttpRequest& request) { return ask(request).status; }
+  Json json(const HttpRequest& request) { return Json::parse(*ask(request).body); }
+
+  ConsoleForTests console;
+  Gate gate{"127.0.0.1", {}};
+  Page page{"no such folder"};
+  Rest rest{console.hub, gate, page};
+  std::set<std::string> given;  ///< "GET /api/state 200", for all that was asked
+};
+
+class LockedRestTest : public RestTest {
+ protected:
+  LockedRestTest()
+      : RestTest(Tokens::parse("viewer viewer-0123456789\noperator operator-0123456789\n", "the test's tokens")) {}
+};
+
+TEST_F(RestTest, Before_anything_is_flown_it_says_so) {
+  for (const char* target : {"/api/state", "/api/mission", "/api/areas"}) EXPECT_EQ(status(get(target)), 503) << target;
+  EXPECT_EQ(status(post("/api/areas", kArea)), 503);
+  EXPECT_EQ(json(command({{"type", "land_all"}, {"id", 1}})).at("code"), "not_now");
+  EXPECT_EQ(json(get("/api/version")).at("login"), false);
+}
+
+TEST_F(RestTest, The_state_is_the_swarms_in_the_world_frame) {
+  console.fly();
+  console.pass(100ms);
+  const Json state = json(get("/api/state"));
+  EXPECT_EQ(state.at("active"), 3);
+  const Json& drone = state.at("drones").at(0);
+  EXPECT_EQ(drone.at("id"), "a");
+  EXPECT_NEAR(drone.at("position_m").at(0), -0.5, 0.1);  // where it started, but for 0.1 s of flight
+  EXPECT_NEAR(drone.at("position_m").at(1), 10.5, 0.1);
+}
+
+TEST_F(RestTest, The_mission_is_given_as_json_or_as_a_file_that_can_be_flown) {
+  console.fly();
+  EXPECT_EQ(json(get("/api/mission")).at("name"), "small");
+  HttpRequest by_header = get("/api/mission");
+  by_header.accept = "application/yaml";
+  for (const HttpRequest& request : {get("/api/mission?format=yaml"), by_header}) {
+    const HttpAnswer answer = ask(request);
+    EXPECT_EQ(answer.content_type, "application/yaml");
+    EXPECT_EQ(runtime::parse_mission(*answer.body, "the answer").targets, runtime::small_mission().targets);
+  }
+}
+
+TEST_F(RestTest, Areas_go_out_and_come_in_again) {
+  console.fly();
+  EXPECT_EQ(ask(get("/api/areas")).content_type, "application/geo+json");
+  EXPECT_EQ(status(post("/api/areas", kArea)), 200);
+  EXPECT_EQ(console.hub.mission()->targets.areas.back().name, "hall");
+  EXPECT_EQ(status(post("/api/areas", *ask(get("/api/areas")).body)), 200);
+  EXPECT_EQ(console.hub.mission()->targets.areas.size(), 2U);
+  EXPECT_EQ(json(post("/api/areas", R"({"type":"FeatureCollection","features":[]})")).at("code"), "invalid");
+}
+
+TEST_F(RestTest, Commands_are_answered_as_by_websocket_with_the_status_that_says_the_same) {
+  console.fly();
+  EXPECT_EQ(json(command({{"type", "hold"}, {"id", 4}, {"drones", {"a"}}})).at("id"), 4);
+  EXPECT_EQ(status(command({{"type", "ping"}, {"id", 1}})), 200);
+  EXPECT_EQ(json(preview({{"seconds", 2}})).at("type"), "preview");
+  EXPECT_EQ(status(command({{"type", "hold"}, {"id", 1}, {"drones", {"x"}}})), 404);
+  EXPECT_EQ(status(command({{"type", "take_off"}, {"id", 1}, {"drones", {"b"}}})), 409);
+  EXPECT_EQ(status(command({{"type", "hold"}})), 400);
+  EXPECT_EQ(status(command({{"type", "hello"}})), 400);
+  EXPECT_EQ(status(post("/api/commands", "{")), 400);
+  EXPECT_EQ(status(post("/api/commands", std::string(kMostMessageBytes + 1, ' '))), 413);
+  EXPECT_EQ(console.hub.state().at("drones").at(0).at("activity"), "held");
+}
+
+TEST_F(RestTest, Whoever_calls_the_server_by_a_name_that_is_not_its_own_gets_nothing) {
+  console.fly();
+  for (const char* target : {"/", "/api/state", "/api/version"}) {
+    HttpRequest request = get(target);
+    request.host = "evil.example";
+    EXPECT_EQ(status(request), 421) << target;
+  }
+}
+
+TEST_F(RestTest, Another_sites_page_may_look_at_nothing_and_change_nothing) {
+  console.fly();
+  HttpRequest land = command({{"type", "land_all"}, {"id", 1}});
+  for (const char* origin : {"http://evil.example", "null", "http://127.0.0.1:9999"}) {
+    land.origin = origin;
+    EXPECT_EQ(status(land), 403) << origin;
+  }
+  land.origin = "http://127.0.0.1:8080";
+  land.content_type = "text/plain";  // what a form of another site could send
+  EXPECT_EQ(status(land), 415);
+  EXPECT_EQ(console.hub.state().at("active"), 3);
+}
+
+TEST_F(RestTest, What_is_not_there_is_not_found_and_what_is_there_says_how_it_is_asked) {
+  console.fly();
+  EXPECT_EQ(status(get("/api/nothing")), 404);
+  EXPECT_EQ(status(get("/api/commands")), 405);
+  EXPECT_EQ(status(post("/api/state", "{}")), 405);
+  EXPECT_EQ(status(post("/", "{}")), 405);
+  EXPECT_EQ(status(get("/nothing.js")), 404);
+  const HttpAnswer unbuilt = ask(get("/"));
+  EXPECT_EQ(unbuilt.status, 200);
+  EXPECT_NE(unbuilt.body->find("was not built"), std::string::npos);
+}
+
+TEST_F(LockedRestTest, A_token_opens_what_its_role_may_and_nothing_opens_more) {
+  console.fly();
+  EXPECT_EQ(json(get("/api/version")).at("login"), true);
+  HttpRequest state = get("/api/state");
+  for (const char* header :
+       {"", "Bearer ", "Bearer viewer-012345678", "viewer-0123456789", "Basic viewer-0123456789"}) {
+    state.authorization = header;
+    EXPECT_EQ(status(state), 401) << header;
+  }
+  state.authorization = "Bearer viewer-0123456789";
+  EXPECT_EQ(status(state), 200);
+  HttpRequest land = command({{"type", "land_all"}, {"id", 1}});
+  land.authorization = "Bearer viewer-0123456789";
+  EXPECT_EQ(status(land), 403);
+  land.authorization = "Bearer operator-0123456789";
+  EXPECT_EQ(status(land), 200);
+  HttpRequest stop = command({{"type", "emergency_stop"}, {"id", 1}, {"drones", "all"}});
+  stop.authorization = land.authorization;
+  EXPECT_EQ(status(stop), 403);
+}
+
+/// "GET /api/state 200" for each that protocol/openapi.json describes.
+std::set<std::string> described() {
+  std::ifstream file(VIGIL_PROTOCOL_DIR "/openapi.json");
+  std::set<std::string> all;
+  const Json openapi = Json::parse(file);
+  for (const auto& [path, methods] : openapi.at("paths").items())
+    for (const auto& [method, what] : methods.items())
+      for (const auto& [status, answer] : what.at("responses").items())
+        all.insert((method == "get" ? "GET " : "POST ") + path + " " + status);
+  return all;
+}
+
+TEST_F(LockedRestTest, Every_answer_that_is_described_is_given_and_no_other) {
+  const auto with = [](HttpRequest request, const std::string& token) {
+    request.authorization = "Bearer " + token;
+    return request;
+  };
+  const std::string viewer = "viewer-0123456789";
+  const std::string anybody = "operator-0123456789";
+  const std::vector<HttpRequest> gets{get("/api/version"), get("/api/state"), get("/api/mission"), get("/api/areas")};
+  const std::vector<HttpRequest> posts{
+      post("/api/areas", kArea), command({{"type", "hold"}, {"id", 1}, {"drones", {"a"}}}), preview({{"seconds", 2}})};
+  for (const HttpRequest& request : gets) ask(with(request, anybody));
+  EXPECT_EQ(ask(with(posts[0], anybody)).status, 503);
+  console.fly();
+  console.pass(100ms);
+  for (const HttpRequest& request : gets) ask(with(request, viewer));
+  for (const HttpRequest& request : posts) ask(with(request, anybody));
+  for (std::vector<HttpRequest> all = gets; const HttpRequest& request : all) ask(request);
+  for (HttpRequest request : posts) {
+    ask(request);                // no token
+    ask(with(request, viewer));  // the role is too low
+    HttpRequest other = with(request, anybody);
+    other.content_type = "text/plain";
+    ask(other);
+    other = with(request, anybody);
+    other.origin = "http://evil.example";
+    ask(other);
+    other = with(request, anybody);
+    other.body = "{";
+    ask(other);
+    other.body = std::string(kMostMessageBytes + 1, ' ');
+    ask(other);
+  }
+  for (std::vector<HttpRequest> all{gets[0], gets[1], gets[2], gets[3], posts[0], posts[1]};
+       HttpRequest request : all) {
+    request.host = "evil.example";
+    ask(request);
+  }
+  ask(with(command({{"type", "hold"}, {"id", 1}, {"drones", {"x"}}}), anybody));
+  ask(with(command({{"type", "take_off"}, {"id", 1}, {"drones", {"a"}}}), anybody));
+  ask(with(preview({{"without", {"x"}}}), anybody));
+  const Json edit{{"op", "set_uniform_floor"}, {"uniform_floor", 0.1}};
+  ask(with(preview({{"edits", {edit}}, {"based_on", 99}}), anybody));
+  console.most_tasks = 0;  // the desk has no time
+  ask(with(posts[2], anybody));
+  ask(with(posts[0], anybody));
+  ask(with(command({{"type", "undo"}, {"id", 1}}), anybody));
+  console.most_tasks = 2;
+  rest.answer(with(posts[0], anybody), [](const HttpAnswer&) {});  // another program is faster by a moment
+  ask(with(posts[0], anybody));
+  std::vector<std::string> differing;
+  std::ranges::set_symmetric_difference(given, described(), std::back_inserter(differing));
+  EXPECT_EQ(differing, std::vector<std::string>{});
+}
+
+}  // namespace
+}  // namespace vigil::console
