@@ -35,10 +35,18 @@ export interface View {
 
 export async function openView(
   browser: Browser,
-  options: { theme?: 'dark' | 'light'; width?: number; height?: number } = {},
+  options: {
+    theme?: 'dark' | 'light';
+    width?: number;
+    height?: number;
+    hasTouch?: boolean;
+    ignoreHTTPSErrors?: boolean;
+  } = {},
 ): Promise<View> {
   const context = await browser.newContext({
     viewport: { width: options.width ?? 1440, height: options.height ?? 900 },
+    hasTouch: options.hasTouch ?? false,
+    ignoreHTTPSErrors: options.ignoreHTTPSErrors ?? false,
   });
   await context.addInitScript(
     (theme) => localStorage.setItem('vigil.theme', localStorage.getItem('vigil.theme') ?? theme),

@@ -5,21 +5,11 @@ import type { Browser, Page } from 'playwright-core';
 import { afterAll, afterEach, beforeAll, describe, expect, it } from 'vitest';
 import { violationsOf } from './axe';
 import { keepPicture, openBrowser, openView, type View } from './chromium';
+import { pixelOf } from './field_pixels';
+import { kEmptyField } from './missions';
 import { serve, type Program } from './program';
 
 /** The real program with a simulated fleet, in a real browser. */
-
-const kEmptyField = `
-format: 1
-name: empty
-field: {size_m: [3, 3], origin_m: [-1.5, -1.5]}
-drones:
-  - {id: cf1, start_m: [-0.5, 0]}
-  - {id: cf2, start_m: [0, 0.5]}
-  - {id: cf3, start_m: [0.5, 0]}
-control: {speed_limit_m_s: 0.3}
-safety: {separation_m: 0.2, wall_distance_m: 0.17}
-`;
 
 let browser: Browser;
 let folder: string;
@@ -59,13 +49,6 @@ const flyEmptyField = async (): Promise<Page> => {
   program = await serve(join(folder, 'empty.yaml'));
   return look();
 };
-
-/** The CSS pixel of a place of the field, which is 3 x 3 m around the origin and fills the map but for 36 pixels. */
-async function pixelOf(page: Page, x: number, y: number): Promise<{ x: number; y: number }> {
-  const box = (await page.locator('.map-field').boundingBox())!;
-  const scale = Math.min(box.width - 72, box.height - 72) / 3;
-  return { x: box.x + box.width / 2 + scale * x, y: box.y + box.height / 2 - scale * y };
-}
 
 async function clickAt(page: Page, x: number, y: number): Promise<void> {
   const pixel = await pixelOf(page, x, y);

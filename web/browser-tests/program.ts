@@ -19,9 +19,12 @@ export async function serve(mission: string, options: readonly string[] = [], po
   if (!existsSync(kProgram)) throw new Error(`no program at ${kProgram}: build it, or set VIGIL_PROGRAM`);
   const page = `${kRoot}/web/dist`;
   const file = mission.includes('/') ? mission : `${kRoot}/missions/${mission}`;
-  const child = spawn(kProgram, ['serve', file, '--port', String(port), '--page', page, ...options], {
-    stdio: ['ignore', 'pipe', 'pipe'],
-  });
+  return start(kProgram, ['serve', file, '--port', String(port), '--page', page, ...options]);
+}
+
+/** Any command that serves the console and prints its address. */
+export async function start(command: string, options: readonly string[]): Promise<Program> {
+  const child = spawn(command, options, { stdio: ['ignore', 'pipe', 'pipe'] });
   // A test run that ends in whatever way leaves no program behind.
   const takeAlong = (): void => void child.kill('SIGKILL');
   process.once('exit', takeAlong);
@@ -41,7 +44,7 @@ async function addressFrom(child: ChildProcess): Promise<string> {
     for (const stream of [child.stdout!, child.stderr!])
       createInterface({ input: stream }).on('line', (line) => {
         said += `${line}\n`;
-        const address = /http:\/\/[\d.]+:\d+/.exec(line);
+        const address = /https?:\/\/[\d.]+:\d+/.exec(line);
         if (address) found(address[0]);
       });
     child.once('exit', (code) => failed(new Error(`vigil serve ended with code ${code}: ${said}`)));

@@ -31,6 +31,7 @@ export class Gestures {
   private drag: Drag | null = null;
   private hasMoved = false;
   private pinch = 0;
+  private middle: Point = [0, 0];
 
   constructor(
     private readonly host: HTMLElement,
@@ -126,6 +127,7 @@ export class Gestures {
 
   private released(event: PointerEvent): void {
     if (!this.down.delete(event.pointerId)) return;
+    if (this.down.size === 2) this.beginPinch();
     if (this.down.size > 0) return;
     const { drag } = this;
     this.drag = null;
@@ -188,8 +190,10 @@ export class Gestures {
 
   private beginPinch(): void {
     this.drag = null;
+    this.hasMoved = true; // whatever happens to the fingers now, it is no click
     this.map.editor.sketch.value = [];
     this.pinch = this.fingersApart();
+    this.middle = this.fingersMiddle();
   }
 
   private fingersApart(): number {
@@ -197,11 +201,18 @@ export class Gestures {
     return a && b ? Math.max(1, distance(a, b)) : 1;
   }
 
-  private pinched(): void {
-    const apart = this.fingersApart();
+  private fingersMiddle(): Point {
     const [a, b] = [...this.down.values()];
-    if (a && b && this.pinch > 0) this.map.zoom(apart / this.pinch, [(a[0] + b[0]) / 2, (a[1] + b[1]) / 2]);
+    return a && b ? [(a[0] + b[0]) / 2, (a[1] + b[1]) / 2] : this.middle;
+  }
+
+  /** What was between the fingers stays there. */
+  private pinched(): void {
+    const [apart, middle] = [this.fingersApart(), this.fingersMiddle()];
+    this.map.pan(middle[0] - this.middle[0], middle[1] - this.middle[1]);
+    if (this.pinch > 0) this.map.zoom(apart / this.pinch, middle);
     this.pinch = apart;
+    this.middle = middle;
   }
 
   private wheeled(event: WheelEvent): void {

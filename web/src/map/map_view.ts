@@ -1,5 +1,6 @@
 import { effect, signal } from '@preact/signals';
 import type { Snapshot } from '../link/frames';
+import { vectorOf } from '../model/drones';
 import type { Point } from '../model/geometry';
 import type { Editor } from '../session/editor';
 import type { Foresight } from '../session/foresight';
@@ -364,7 +365,10 @@ export class MapView {
   private snapshotCame(snapshot: Snapshot): void {
     const { layers } = this;
     if (!layers || this.shown.mission !== this.session.mission.value || this.gl!.isContextLost()) return;
-    layers.trails.extend(snapshot.timeS, () => this.relativePositions(snapshot.position));
+    layers.trails.extend(snapshot.timeS, () => ({
+      positions: this.relativePositions(snapshot.position),
+      velocities: this.turnedVelocities(snapshot),
+    }));
   }
 
   private trailMemoryS(): number {
@@ -385,19 +389,31 @@ export class MapView {
     return relative;
   }
 
+  private turnedVelocities(snapshot: Snapshot): Float32Array {
+    const field = this.session.field.value!;
+    const turned = new Float32Array(2 * snapshot.n);
+    for (let drone = 0; drone < snapshot.n; drone++)
+      turned.set(field.turned(vectorOf(snapshot, drone, 'velocity')), 2 * drone);
+    return turned;
+  }
+
   private uploadTrails(layers: Layers): void {
     const { trails } = this.session;
     this.shown.trails = trails;
     if (!trails || trails.n !== this.session.droneIds.value.length) return;
     layers.trails.reset(trails.n, this.trailMemoryS());
     const row = new Float32Array(2 * trails.n);
+    const velocities = new Float32Array(2 * trails.n); // its points are close enough: no need to know
     for (let k = 0; k < trails.points; k++) {
       for (let drone = 0; drone < trails.n; drone++) {
         const from = 2 * (drone * trails.points + k);
         row[2 * drone] = trails.position[from]!;
         row[2 * drone + 1] = trails.position[from + 1]!;
       }
-      layers.trails.extend(trails.timeS - (trails.points - 1 - k) * trails.spacingS, () => this.relativePositions(row));
+      layers.trails.extend(trails.timeS - (trails.points - 1 - k) * trails.spacingS, () => ({
+        positions: this.relativePositions(row),
+        velocities,
+      }));
     }
   }
 

@@ -9,6 +9,7 @@ import {
   uniformsOf,
 } from './gl';
 import type { Frame, Gl, Rgb } from './gl';
+import { curveAt } from '../model/curve';
 
 const kVertex = `
 layout(location = 0) in vec2 corner;
@@ -65,6 +66,14 @@ const kNames = [
 const kMostSegments = 60_000;
 const kMostRows = 400;
 const kFloats = 4;
+/** Rows between two moments, where the clock runs so fast that there is more than one. */
+const kMostBetween = 32;
+
+/** Where all drones are at a moment, relative to the map's origin, and how fast: x and y by turns. */
+export interface Moment {
+  readonly positions: Float32Array;
+  readonly velocities: Float32Array;
+}
 
 export interface TrailStyle {
   readonly colours: readonly [Rgb, Rgb, Rgb];
@@ -89,7 +98,9 @@ export class TrailLayer {
   private head = 0;
   private filled = 0;
   private latest = new Float32Array(0);
+  private between = new Float32Array(0);
   private newest = -Infinity;
+  private last: Moment | null = null;
   private spacing = 0.1;
 
   constructor(private readonly gl: Gl) {
@@ -107,7 +118,9 @@ export class TrailLayer {
     this.head = 0;
     this.filled = 0;
     this.newest = -Infinity;
+    this.last = null;
     this.latest = new Float32Array(kFloats * drones).fill(NaN);
+    this.between = new Float32Array(2 * drones);
     const { gl } = this;
     gl.bindBuffer(gl.ARRAY_BUFFER, this.points);
     // One row more than the ring has: a copy of its first, so that the last row has a next one.
@@ -118,14 +131,37 @@ export class TrailLayer {
     return this.spacing;
   }
 
-  /** Takes the positions (relative to the map's origin, x and y by turns) of a moment, if it is time for another row. */
-  extend(timeS: number, positionsOf: () => Float32Array): void {
+  /**
+   * Takes a moment, if it is time for another row. Where the clock runs so fast that it was time for several since the
+   * last one, those between follow the curve that has the places and velocities of both.
+   */
+  extend(timeS: number, momentOf: () => Moment): void {
     if (this.columns === 0 || timeS < this.newest + this.spacing) {
       if (timeS < this.newest - 1) this.reset(this.columns, this.spacing * this.rows);
       return;
     }
+    const moment = momentOf();
+    const passedS = timeS - this.newest;
+    const steps = this.last ? Math.min(kMostBetween, Math.floor(passedS / this.spacing)) : 1;
+    for (let step = 1; step < steps; step++) {
+      this.interpolate(this.last!, moment, passedS, step / steps);
+      this.addRow(this.newest + (passedS * step) / steps, this.between);
+    }
+    this.addRow(timeS, moment.positions);
     this.newest = timeS;
-    const positions = positionsOf();
+    this.last = moment;
+  }
+
+  private interpolate(from: Moment, to: Moment, passedS: number, share: number): void {
+    const at = curveAt(share);
+    for (let i = 0; i < this.between.length; i++)
+      this.between[i] =
+        at.place0 * from.positions[i]! +
+        at.place1 * to.positions[i]! +
+        passedS * (at.velocity0 * from.velocities[i]! + at.velocity1 * to.velocities[i]!);
+  }
+
+  private addRow(timeS: number, positions: Float32Array): void {
     for (let i = 0; i < this.columns; i++) this.extendOne(i, timeS, positions);
     const { gl } = this;
     gl.bindBuffer(gl.ARRAY_BUFFER, this.points);

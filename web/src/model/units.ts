@@ -63,3 +63,7 @@ export function parseNumber(text: string): number | null {
   const value = Number(trimmed);
   return Number.isFinite(value) ? value : null;
 }
+
+/** A reason of the program's, which is a clause, as a sentence of its own. */
+export const sentence = (clause: string): string =>
+  clause === '' ? '' : `${clause[0]!.toUpperCase()}${clause.slice(1)}${/[.!?…]$/.test(clause) ? '' : '.'}`;

@@ -1,5 +1,5 @@
 import { describe, expect, it } from 'vitest';
-import { age, clock, coordinateDecimals, duration, metres, parseNumber, percent } from './units';
+import { age, clock, coordinateDecimals, duration, metres, parseNumber, percent, sentence } from './units';
 
 describe('units', () => {
   it('Lengths have three digits or so', () => {
@@ -33,5 +33,9 @@ describe('units', () => {
       null,
       null,
     ]);
+  });
+
+  it('A clause becomes a sentence, and a sentence stays one', () => {
+    expect(['no token', 'It ended.', 'why?', ''].map(sentence)).toEqual(['No token.', 'It ended.', 'Why?', '']);
   });
 });

@@ -2,7 +2,7 @@ import { useSignal } from '@preact/signals';
 import { useEffect } from 'preact/hooks';
 import type { Point } from '../model/geometry';
 import { isEmpty, type Edit } from '../model/targets';
-import { age } from '../model/units';
+import { age, sentence } from '../model/units';
 import { useApp } from './app_context';
 import { Icon } from './icons';
 import { WhoForm } from './who_menu';
@@ -40,7 +40,7 @@ function Loading() {
   return (
     <div class="cover" role="status">
       <h2>{phase === 'lost' ? 'No connection yet' : 'Loading'}</h2>
-      {phase === 'lost' && <p>{reason} Is the program running? The console tries again by itself.</p>}
+      {phase === 'lost' && <p>{sentence(reason)} Is the program running? The console tries again by itself.</p>}
       <ol>
         {steps.map(([name, isDone], i) => (
           <li key={name} class={isDone ? 'ok' : i === current ? '' : 'dim'}>
@@ -59,7 +59,7 @@ function Refused() {
   return (
     <div class="cover" role="alert">
       <h2>The program wants a token</h2>
-      <p>{session.linkState.value.reason} Nothing is shown before; the drones are not affected.</p>
+      <p>{sentence(session.linkState.value.reason)} Nothing is shown before; the drones are not affected.</p>
       <WhoForm done={() => undefined} />
     </div>
   );
@@ -84,8 +84,8 @@ function Disconnected() {
         <strong class="alarm">
           <span role="alert">Disconnected.</span> What you see is {age(session.dataAgeS())} old and frozen.
         </strong>
-        {reason} Editing is off. The drones need no console: the program goes on covering with the last committed
-        targets; should the program itself be gone, each vehicle hovers and then lands by its own failsafe.
+        {sentence(reason)} Editing is off. The drones need no console: the program goes on covering with the last
+        committed targets; should the program itself be gone, each vehicle hovers and then lands by its own failsafe.
         {phase === 'lost' && <span class="dim"> Next try in {wait.toFixed(0)} s.</span>}
       </p>
       <button type="button" onClick={() => session.link.open()}>

@@ -114,7 +114,7 @@ const logarithmic = (): uPlot.Scale => ({
 });
 
 const linear = (least: number): uPlot.Scale => ({
-  range: (_, __, high) => [0, Math.max((high ?? 0) * 1.1, least, 1e-3)],
+  range: (_, __, high) => [0, high === null ? Math.max(least, 1) : Math.max(high * 1.1, least, 1e-3)],
 });
 
 const shortNumber = (value: number | null): string => (value === null ? '' : String(Number(value.toPrecision(3))));

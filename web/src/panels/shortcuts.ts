@@ -48,7 +48,7 @@ function pressStop(app: App, stop: TwoPresses, now: number): void {
     return;
   }
   app.isStopArmed.value = true;
-  session.notify('warning', 'Press . once more within 0.8 s to stop ALL motors.');
+  session.notify('warning', 'Press . once more within 0.8 s to stop ALL motors.', kStopArmedMs);
   window.setTimeout(() => (app.isStopArmed.value = false), kStopArmedMs);
 }
 

@@ -98,10 +98,11 @@ export class Session {
     return this.snapshot.ageS + (this.world.nowMs() - this.snapshotAtMs) / 1000;
   }
 
-  notify(kind: NoticeKind, text: string): void {
+  /** Shown for a while, or for `lastsMs` where it makes no sense any more after that. */
+  notify(kind: NoticeKind, text: string, lastsMs = kind === 'info' ? 4000 : 9000): void {
     const notice = { number: this.nextNotice++, kind, text };
     this.notices.value = [...this.notices.value.slice(-4), notice];
-    this.world.after(kind === 'info' ? 4000 : 9000, () => this.dismiss(notice.number));
+    this.world.after(lastsMs, () => this.dismiss(notice.number));
   }
 
   dismiss(number: number): void {
