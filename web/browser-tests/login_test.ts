@@ -63,7 +63,7 @@ describe('a console that is reached over TLS', () => {
     expect(await violationsOf(page)).toEqual([]);
     await keepPicture(page, 'login');
     await logIn('Ana', 'operator-token-of-that-test');
-    await page.getByText(/this token opens nothing/).waitFor();
+    await page.getByText(/This token opens nothing/).waitFor();
     await keepPicture(page, 'login_refused');
   });
 

@@ -79,9 +79,10 @@ class RecordedLine final : public ClientLine {
                                                                           std::chrono::nanoseconds now) {
   runtime::FlightStart start{runtime::first_intent(mission), {}};
   if (saved != nullptr) start = {swarm::Intent::kHold, saved->past};
-  auto flight = std::make_shared<runtime::LiveMission>(
-      mission, std::make_unique<runtime::ObedientFleet>(runtime::starts_in_field(mission)), nullptr, start, epoch,
-      [](const std::stop_token&, runtime::ControlLoop&) {});
+  auto fleet = std::make_unique<runtime::ObedientFleet>(runtime::starts_in_field(mission));
+  runtime::VirtualFleet* const world = fleet.get();
+  auto flight = std::make_shared<runtime::LiveMission>(mission, std::move(fleet), world, nullptr, start, epoch,
+                                                       [](const std::stop_token&, runtime::ControlLoop&) {});
   flight->loop().begin(now);
   return flight;
 }

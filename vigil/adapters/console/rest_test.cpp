@@ -204,7 +204,7 @@ TEST_F(LockedRestTest, Every_answer_that_is_described_is_given_and_no_other) {
   console.pass(100ms);
   for (const HttpRequest& request : gets) ask(with(request, viewer));
   for (const HttpRequest& request : posts) ask(with(request, anybody));
-  for (std::vector<HttpRequest> all = gets; const HttpRequest& request : all) ask(request);
+  for (const HttpRequest& request : gets) ask(request);
   for (HttpRequest request : posts) {
     ask(request);                // no token
     ask(with(request, viewer));  // the role is too low
@@ -220,8 +220,9 @@ TEST_F(LockedRestTest, Every_answer_that_is_described_is_given_and_no_other) {
     other.body = std::string(kMostMessageBytes + 1, ' ');
     ask(other);
   }
-  for (std::vector<HttpRequest> all{gets[0], gets[1], gets[2], gets[3], posts[0], posts[1]};
-       HttpRequest request : all) {
+  std::vector<HttpRequest> all = gets;
+  all.insert(all.end(), posts.begin(), posts.end());
+  for (HttpRequest request : all) {
     request.host = "evil.example";
     ask(request);
   }
