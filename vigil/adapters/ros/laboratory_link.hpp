@@ -39,9 +39,10 @@ class StandInCrazyswarm {
   std::unique_ptr<Wire> wire_;
 };
 
-/// The node that sees the bodies, in place of vicon_bridge: passes /laboratory/bodies on to /vicon/<drone>/<drone> with
-/// a tenth of a millimetre of noise, and spoils it as /laboratory/fault (std_msgs/String) says: `none`, `freeze`,
-/// `delay SECONDS` (up to 5), `swap DRONE DRONE`. Works on threads of its own until it is destroyed.
+/// The node that sees the bodies, in place of vicon_bridge: passes /laboratory/bodies on to /tf and
+/// /vicon/<drone>/<drone> with a tenth of a millimetre of noise, and spoils it as /laboratory/fault (std_msgs/String)
+/// says: `none`, `freeze`, `delay SECONDS` (up to 5), `swap DRONE DRONE`. Works on threads of its own until it is
+/// destroyed.
 class StandInVicon {
  public:
   explicit StandInVicon(const std::vector<std::string>& drones);

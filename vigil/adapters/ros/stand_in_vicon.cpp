@@ -69,7 +69,8 @@ class StandInVicon::Wire {
   }
 
   void publish(const Bodies& bodies) {
-    for (geometry_msgs::TransformStamped body : bodies.transforms) {
+    Bodies seen = bodies;
+    for (geometry_msgs::TransformStamped& body : seen.transforms) {
       if (body.child_frame_id == swapped_.first)
         body.child_frame_id = swapped_.second;
       else if (body.child_frame_id == swapped_.second)
@@ -77,6 +78,7 @@ class StandInVicon::Wire {
       const auto subject = subjects_.find(body.child_frame_id);
       if (subject != subjects_.end()) subject->second.publish(body);
     }
+    tf_.publish(seen);
   }
 
   void spoil(const std_msgs::String& fault) {
@@ -93,6 +95,7 @@ class StandInVicon::Wire {
   ros::CallbackQueue queue_;
   ros::NodeHandle node_{"/"};
   std::map<std::string, ros::Publisher> subjects_;
+  ros::Publisher tf_ = node_.advertise<Bodies>("/tf", 10);
   ros::Subscriber bodies_;
   ros::Subscriber faults_;
   std::mt19937 random_{kSeed};
