@@ -16,6 +16,7 @@
 
 #include "vigil/adapters/ros/crazyswarm_messages.hpp"
 #include "vigil/adapters/ros/ros_name.hpp"
+#include "vigil/runtime/thread_priority.hpp"
 
 namespace vigil::ros_bridge {
 namespace {
@@ -140,6 +141,7 @@ class CrazyswarmLink final : public CrazyswarmPort {
   }
 
   void stream() {
+    (void)runtime::take_real_time_priority();  // elsewhere it takes its turn
     std::vector<Setpoint> setpoints(setup_.drones.size());
     auto next = Clock::now();
     while (!is_over_) {

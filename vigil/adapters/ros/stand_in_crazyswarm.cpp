@@ -65,7 +65,8 @@ class StandInCrazyswarm::Wire {
  private:
   struct Drone {
     Told told;
-    double last_s = 0.0;
+    double last_s = 0.0;  ///< when the last setpoint came; 0 after a landing
+    double sent_s = 0.0;  ///< and when it was sent, by its stamp
   };
 
   void listen(std::size_t i) {
@@ -108,9 +109,12 @@ class StandInCrazyswarm::Wire {
     const std::lock_guard<std::mutex> lock(mutex_);
     Drone& mine = drones_[drone];
     const double now_s = ros::Time::now().toSec();
-    // A stream that was ended by a landing begins anew.
-    if (mine.last_s > 0.0) mine.told.longest_silence_s = std::max(mine.told.longest_silence_s, now_s - mine.last_s);
+    // A stream that was ended by a landing begins anew. By the sender's stamps: how late it is read here is another
+    // matter.
+    const double sent_s = message.header.stamp.toSec();
+    if (mine.last_s > 0.0) mine.told.longest_silence_s = std::max(mine.told.longest_silence_s, sent_s - mine.sent_s);
     mine.last_s = now_s;
+    mine.sent_s = sent_s;
     ++mine.told.setpoints;
     mine.told.velocity_m_s = {message.vel.x, message.vel.y, message.vel.z};
   }
