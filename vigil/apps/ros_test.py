@@ -6,6 +6,7 @@ the tests' numbers, and another one of ten drones.
 """
 
 import contextlib
+import functools
 import json
 import os
 import pathlib
@@ -138,8 +139,19 @@ def publish(topic, kind, value):
     tool("rostopic", "pub", "-1", topic, kind, value)
 
 
+@functools.cache
+def faults():
+    """A publisher that is there already when it is needed: drones that are lost for five seconds land."""
+    import rospy  # of ROS' packages in Debian
+    from std_msgs.msg import String
+
+    os.environ.update(ENVIRONMENT)
+    rospy.init_node("faults", disable_signals=True)
+    return rospy.Publisher("/laboratory/fault", String, queue_size=1, latch=True)
+
+
 def fault(what):
-    publish("/laboratory/fault", "std_msgs/String", f"data: '{what}'")
+    faults().publish(what)
 
 
 class Picture:
