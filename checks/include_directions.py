@@ -34,7 +34,7 @@ LIBRARIES = {
     "apps": ("Eigen", "fmt", "CLI", "nlohmann"),
     "testing": ("Eigen", "fmt", "gtest", "rapidcheck", "nlohmann"),
     "bench": ("Eigen", "fmt", "benchmark", "nlohmann"),
-    "fuzz": ("Eigen",),
+    "fuzz": ("Eigen", "boost"),
 }
 TEST_LIBRARIES = ("gtest", "gmock", "rapidcheck", "nlohmann")
 
