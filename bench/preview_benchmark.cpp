@@ -61,7 +61,9 @@ double cpu_s() {
 class Flown {
  public:
   explicit Flown(int drones) : mission_(mission_of(drones)) {
-    flight_ = std::make_shared<runtime::LiveMission>(mission_, apps::simulated_fleet(mission_), nullptr,
+    auto fleet = apps::simulated_fleet(mission_);
+    runtime::VirtualFleet* const world = fleet.get();
+    flight_ = std::make_shared<runtime::LiveMission>(mission_, std::move(fleet), world, nullptr,
                                                      runtime::FlightStart{swarm::Intent::kCover, {}}, 1);
     const ergodic::Basis basis(runtime::swarm_parameters(mission_, swarm::Intent::kCover).field,
                                mission_.control.basis_max_index, mission_.control.basis_smoothness);
