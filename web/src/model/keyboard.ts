@@ -112,6 +112,16 @@ function storedEntries(stored: string | null): [string, unknown][] {
 
 export const kEmergencyWindowMs = 800;
 
+/** What a key means while somebody types in a field: text of the field, or an alarm of the page all the same. */
+export type MeaningInField = 'typed' | 'land-all' | 'stop-in-number' | 'stop-in-text';
+
+/** In a number a letter can never be meant, so LAND ALL acts there; whether dots are an alarm their number and pace decide. */
+export function meaningInField(isNumber: boolean, action: string, key: string): MeaningInField {
+  if (action === 'emergency-stop') return isNumber ? 'stop-in-number' : 'stop-in-text';
+  const isOfNumber = key.length > 1 || /^[-+.,0-9eE]$/.test(key);
+  return isNumber && action === 'land-all' && !isOfNumber ? 'land-all' : 'typed';
+}
+
 /** Two presses within 0.8 s. Feed it every press with its time; true means: stop the motors. */
 export class TwoPresses {
   private last = -Infinity;
@@ -120,5 +130,10 @@ export class TwoPresses {
     const isSecond = nowMs - this.last <= kEmergencyWindowMs;
     this.last = isSecond ? -Infinity : nowMs;
     return isSecond;
+  }
+
+  /** The next press is a first one. */
+  forget(): void {
+    this.last = -Infinity;
   }
 }

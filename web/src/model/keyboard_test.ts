@@ -1,5 +1,14 @@
 import { describe, expect, it } from 'vitest';
-import { actionOf, chordOf, kUsualKeys, readKeyMap, remapped, TwoPresses, type KeyPress } from './keyboard';
+import {
+  actionOf,
+  chordOf,
+  kUsualKeys,
+  readKeyMap,
+  remapped,
+  meaningInField,
+  TwoPresses,
+  type KeyPress,
+} from './keyboard';
 
 const press = (key: string, more: Partial<KeyPress> = {}): string =>
   chordOf({ key, ctrl: false, shift: false, alt: false, ...more });
@@ -49,5 +58,25 @@ describe('keyboard', () => {
   it('A third press does not stop the motors once more', () => {
     const stop = new TwoPresses();
     expect([0, 100, 200, 300].map((t) => stop.press(t))).toEqual([false, true, false, true]);
+  });
+
+  it('In a number field LAND ALL acts, unless it was given a key that numbers have', () => {
+    expect(meaningInField(true, 'land-all', 'L')).toBe('land-all');
+    expect(meaningInField(true, 'land-all', '-')).toBe('typed');
+    expect(meaningInField(true, 'land-all', 'Backspace')).toBe('typed');
+    expect(meaningInField(true, 'fit', 'f')).toBe('typed');
+  });
+
+  it('In a name Shift+L is text; dots are told apart from dots in a number', () => {
+    expect(meaningInField(false, 'land-all', 'L')).toBe('typed');
+    expect(meaningInField(false, 'emergency-stop', '.')).toBe('stop-in-text');
+    expect(meaningInField(true, 'emergency-stop', '.')).toBe('stop-in-number');
+  });
+
+  it('Presses that something came between are not two presses', () => {
+    const stop = new TwoPresses();
+    stop.press(0);
+    stop.forget();
+    expect(stop.press(100)).toBe(false);
   });
 });

@@ -1,4 +1,4 @@
-import { useState } from 'preact/hooks';
+import { useRef, useState } from 'preact/hooks';
 import { add, centroid, type Point } from '../model/geometry';
 import { freeName, pointsOf, type Entry, type EntryName } from '../model/targets';
 import { coordinateDecimals } from '../model/units';
@@ -113,8 +113,10 @@ function addPointEdit(which: EntryName, points: readonly Point[]) {
 function NameField({ which }: { which: EntryName }) {
   const { session, editor } = useApp();
   const [typed, setTyped] = useState<string | null>(null);
+  const isGivenUp = useRef(false);
   const settle = (): void => {
-    const name = typed?.trim() ?? '';
+    const name = isGivenUp.current ? '' : (typed?.trim() ?? '');
+    isGivenUp.current = false;
     setTyped(null);
     if (name === '' || name === which.name) return;
     const to = freeName(session.draft.value, which.kind, name.slice(0, 64));
@@ -131,9 +133,10 @@ function NameField({ which }: { which: EntryName }) {
         onInput={(event) => setTyped(event.currentTarget.value)}
         onBlur={settle}
         onKeyDown={(event) => {
-          if (event.key !== 'Enter') return;
+          if (event.key !== 'Enter' && event.key !== 'Escape') return;
           event.stopPropagation();
-          settle();
+          isGivenUp.current = event.key === 'Escape';
+          event.currentTarget.blur();
         }}
       />
     </label>

@@ -1,4 +1,4 @@
-import { useState } from 'preact/hooks';
+import { useRef, useState } from 'preact/hooks';
 import { parseNumber } from '../model/units';
 
 interface Props {
@@ -15,7 +15,10 @@ interface Props {
   readonly set: (value: number | null) => void;
 }
 
-/** A number that takes effect with Enter or when the field is left; the wheel and the arrow keys change it by a tenth. */
+/**
+ * A number that takes effect when the field is left. Enter leaves it with what was typed, Escape with what was there before:
+ * the next key is the page's. The wheel and the arrow keys change it by a tenth.
+ */
 export function NumberField(props: Props) {
   const { label, value, least = -Infinity, most = Infinity, decimals = 3 } = props;
   const [typed, setTyped] = useState<string | null>(null);
@@ -25,8 +28,10 @@ export function NumberField(props: Props) {
     typed !== null &&
     !(shown.trim() === '' && props.empty !== undefined) &&
     (parsed === null || parsed < least || parsed > most);
+  const isGivenUp = useRef(false);
   const settle = (): void => {
-    if (typed !== null && !isWrong && parsed !== value) props.set(parsed);
+    if (!isGivenUp.current && typed !== null && !isWrong && parsed !== value) props.set(parsed);
+    isGivenUp.current = false;
     setTyped(null);
   };
   const nudge = (factor: number): void => {
@@ -45,12 +50,10 @@ export function NumberField(props: Props) {
       onInput={(event) => setTyped(event.currentTarget.value)}
       onBlur={settle}
       onKeyDown={(event) => {
-        if (event.key === 'Enter') {
+        if (event.key === 'Enter' || event.key === 'Escape') {
           event.stopPropagation();
-          settle();
-        } else if (event.key === 'Escape' && typed !== null) {
-          event.stopPropagation();
-          setTyped(null);
+          isGivenUp.current = event.key === 'Escape';
+          event.currentTarget.blur();
         } else if (event.key === 'ArrowUp' || event.key === 'ArrowDown') {
           event.preventDefault();
           nudge(event.key === 'ArrowUp' ? 1 : -1);

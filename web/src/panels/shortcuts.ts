@@ -1,11 +1,13 @@
 import { actionOf, chordOf, TwoPresses, type Action } from '../model/keyboard';
 import type { App } from './app_context';
+import { FieldKeys } from './field_keys';
 
 const kStopArmedMs = 800;
 
-/** Keys of the whole page. Fields, open dialogs and pressed buttons keep theirs. */
+/** Keys of the whole page. Fields, open dialogs and pressed buttons keep theirs, but for the alarms. */
 export function listenForKeys(app: App): void {
   const stop = new TwoPresses();
+  const inFields = new FieldKeys(app);
   window.addEventListener('keydown', (event) => {
     const chord = chordOf({
       key: event.key,
@@ -14,7 +16,8 @@ export function listenForKeys(app: App): void {
       alt: event.altKey,
     });
     const action = actionOf(app.settings.keys.value, chord);
-    if (action === null || event.repeat || belongsToField(event, action)) return;
+    if (inFields.take(event, action)) return;
+    if (action === null || event.repeat || belongsToTarget(event, action)) return;
     event.preventDefault();
     if (action === 'emergency-stop') pressStop(app, stop, event.timeStamp);
     else if (action.startsWith('drone-')) selectDrone(app, Number(action.slice('drone-'.length)));
@@ -22,26 +25,19 @@ export function listenForKeys(app: App): void {
   });
 }
 
-/** What must work wherever the focus is, but for a field in which one is typing. */
+/** What must work wherever the focus is. Of fields in which one is typing `FieldKeys` decides. */
 const kAlways: readonly string[] = ['emergency-stop', 'land-all'];
 
-/** Letters belong to a text field, Enter and Space to a button that has the focus; a dialog or a list has all but alarms. */
-function belongsToField(event: KeyboardEvent, action: string): boolean {
+/** Enter and Space belong to a button that has the focus; a dialog or a list has all but alarms. */
+function belongsToTarget(event: KeyboardEvent, action: string): boolean {
   const target = event.target as HTMLElement;
-  if (target.matches('input:not([type=checkbox]), textarea')) return true;
   if (target.closest('dialog[open], select')) return !kAlways.includes(action);
   return target.matches('button, a, input, summary') && (action === 'commit' || action === 'place-here');
 }
 
 function pressStop(app: App, stop: TwoPresses, now: number): void {
   const { session } = app;
-  if (!session.mayStopMotors.value) {
-    session.notify(
-      'warning',
-      session.isLive.value ? 'Only a safety pilot may stop motors.' : 'Not connected: nothing was sent.',
-    );
-    return;
-  }
+  if (!app.orders.mayStopMotors()) return;
   if (stop.press(now)) {
     app.isStopArmed.value = false;
     app.orders.emergencyStop('all');

@@ -56,6 +56,15 @@ export class FleetOrders {
     void this.session.command({ type: 'emergency_stop', drones }, `EMERGENCY STOP: motors off, ${who}.`);
   }
 
+  /** Whether this console may stop motors now; says why where it may not. */
+  mayStopMotors(): boolean {
+    const { session } = this;
+    if (session.mayStopMotors.value) return true;
+    const reason = session.isLive.value ? 'Only a safety pilot may stop motors.' : 'Not connected: nothing was sent.';
+    session.notify('warning', reason);
+    return false;
+  }
+
   private selectedIds(): string[] {
     const ids = this.session.droneIds.value;
     return [...this.editor.selectedDrones.value].flatMap((drone) => ids[drone] ?? []);
