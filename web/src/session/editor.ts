@@ -46,7 +46,17 @@ export class Editor {
     readonly session: Session,
     /** What the go-to tool does with a place of the field. */
     private readonly sendTo: (place: Point) => void,
-  ) {}
+  ) {
+    session.onAnotherMission(() => this.letGo());
+  }
+
+  /** Nothing selected, nothing drawn, and no tool in hand that would act at a click. */
+  private letGo(): void {
+    this.take('select');
+    this.select(null);
+    this.selectDrones([]);
+    this.cursor.value = null;
+  }
 
   take(tool: Tool): void {
     this.tool.value = tool;

@@ -65,6 +65,7 @@ export class Session {
   /** What is staged became this revision, whose targets have not come yet. */
   private committedRevision: number | null = null;
 
+  private readonly missionListeners = new Set<() => void>();
   private readonly snapshotListeners = new Set<(snapshot: Snapshot) => void>();
   private lastBeatMs = 0;
   private nextNotice = 1;
@@ -90,6 +91,11 @@ export class Session {
   onSnapshot(listener: (snapshot: Snapshot) => void): () => void {
     this.snapshotListeners.add(listener);
     return () => this.snapshotListeners.delete(listener);
+  }
+
+  /** Calls back when another mission is flown than before: indices and names of the old one mean something else then. */
+  onAnotherMission(listener: () => void): void {
+    this.missionListeners.add(listener);
   }
 
   /** Seconds since what is shown was true; Infinity before anything came. */
@@ -167,13 +173,28 @@ export class Session {
   }
 
   private takeMission(mission: Mission): void {
-    const isAnother = !isSameMission(mission, this.mission.value);
+    const before = this.mission.value;
+    const isAnother = !isSameMission(mission, before);
     this.mission.value = mission;
     if (!isAnother) return;
     this.snapshot = this.density = this.ghost = this.coverage = this.ageMap = this.trails = null;
     this.hasSnapshot.value = false;
-    this.staging.value = nothingStaged(0);
+    if (before) this.partWith(before, mission);
+    this.restage(nothingStaged(0));
     this.series.reset(mission.mission.drones.length);
+  }
+
+  /** Nothing that was chosen or staged for the old mission may reach the new one; the program does not say who loaded it. */
+  private partWith(before: Mission, now: Mission): void {
+    const edits = this.staging.value.steps.length;
+    const dropped =
+      edits === 0 ? '' : ` ${edits === 1 ? 'Your staged edit was' : `Your ${edits} staged edits were`} dropped.`;
+    this.notify(
+      'warning',
+      `Another mission is flown now: ${now.mission.name}, after ${before.mission.name}. Nothing is selected any more.${dropped}`,
+    );
+    this.committedRevision = null;
+    for (const listener of this.missionListeners) listener();
   }
 
   private takeTargets(targets: TargetsMessage): void {
@@ -308,4 +329,7 @@ export class Session {
 const isNews = (event: SwarmEvent): boolean => event.severity !== 'info' && event.source !== 'operator';
 
 const isSameMission = (a: Mission, b: Mission | null): boolean =>
-  a.epoch === b?.epoch && a.mission.name === b.mission.name && a.mission.drones.length === b.mission.drones.length;
+  a.epoch === b?.epoch &&
+  a.mission.name === b.mission.name &&
+  a.mission.drones.length === b.mission.drones.length &&
+  a.mission.drones.every((drone, i) => drone.id === b.mission.drones[i]!.id);

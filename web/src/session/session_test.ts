@@ -156,4 +156,34 @@ describe('session', () => {
     expect(editor.stage('heavier', heavier)).toBe(false);
     expect(session.dataAgeS()).toBeGreaterThan(1.9);
   });
+
+  it.each([
+    ['is loaded', { epoch: 2 }],
+    ['comes with a restarted program', { mission: { name: 'test', drones: [{ id: 'd2' }, { id: 'd1' }] } }],
+  ])('When another mission %s nothing chosen or staged reaches it', (_, other) => {
+    const { session, socket, editor, heavier } = begin();
+    editor.selectDrones([1]);
+    editor.take('go-to');
+    editor.cursor.value = [1, 1];
+    editor.sketch.value = [[1, 1]];
+    editor.stage('heavier', heavier);
+    editor.select({ kind: 'cluster', name: 'east' });
+    socket.say({ ...kMission, ...other });
+    expect(editor.selectedDrones.value.size).toBe(0);
+    expect(editor.selected.value).toBe(null);
+    expect([editor.tool.value, editor.sketch.value, editor.cursor.value]).toEqual(['select', [], null]);
+    expect(session.isStaged.value).toBe(false);
+    expect(session.notices.value.map((notice) => notice.text)).toEqual([
+      'Another mission is flown now: test, after test. Nothing is selected any more. Your staged edit was dropped.',
+    ]);
+  });
+
+  it('The same mission after a broken connection leaves what is chosen and staged', () => {
+    const { session, socket, editor, heavier } = begin();
+    editor.selectDrones([1]);
+    editor.stage('heavier', heavier);
+    socket.say(kMission);
+    expect(editor.selectedDrones.value.size).toBe(1);
+    expect(session.isStaged.value).toBe(true);
+  });
 });
