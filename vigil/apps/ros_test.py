@@ -8,6 +8,7 @@ the tests' numbers, and another one of ten drones.
 import contextlib
 import functools
 import json
+import math
 import os
 import pathlib
 import signal
@@ -75,11 +76,20 @@ def start(name, *command):
         RUNNING[name] = subprocess.Popen([str(part) for part in command], env=ENVIRONMENT, stdout=log, stderr=log, start_new_session=True)
 
 
+def children_of(pid):
+    return [int(child) for child in pathlib.Path(f"/proc/{pid}/task/{pid}/children").read_text().split()]
+
+
 def stop(name, how=signal.SIGINT):
     process = RUNNING.pop(name, None)
     if process is None:
         return
-    os.killpg(process.pid, how)  # roscore and rosbag have children of their own
+    family = children_of(process.pid)
+    os.killpg(process.pid, how)
+    if how == signal.SIGKILL:  # roscore's children, which it can no longer end, have groups of their own
+        for child in family:
+            with contextlib.suppress(ProcessLookupError):
+                os.kill(child, how)
     try:
         process.wait(15)
     except subprocess.TimeoutExpired:
@@ -117,6 +127,11 @@ def drones():
 def are(activity, *ids):
     now = drones()
     return bool(now) and all(now[one][0] == activity for one in ids)
+
+
+def distance_m(one, other):
+    places = {drone["id"]: drone["position_m"] for drone in state()["drones"]}
+    return math.dist(places[one], places[other])
 
 
 def tool(*command, seconds=30):
@@ -329,6 +344,7 @@ class TheLaboratory(unittest.TestCase):
         self.recovers()
 
     def test_10_bodies_that_swap_their_names_are_noticed(self):
+        until(lambda: distance_m("cf1", "cf3") > 0.8, 60, "two drones so far apart that a swap can be told from flying")
         fault("swap cf1 cf3")
         until(lambda: are("tracking_lost", "cf1", "cf3"), 3, "both drones are lost")
         fault("none")
