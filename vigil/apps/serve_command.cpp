@@ -77,7 +77,8 @@ std::shared_ptr<runtime::LiveMission> make_flight(const runtime::Mission& missio
                                                   RosSide* ros) {
   runtime::FlightStart start{runtime::first_intent(mission), {}};
   // After a restart the drones hover until somebody has looked, and resumes.
-  if (saved != nullptr) start = {swarm::Intent::kHold, saved->past};
+  if (saved != nullptr) start.first_intent = swarm::Intent::kHold;
+  if (saved != nullptr && saved->past.ticks > 0) start.past = saved->past;
   if (options.fleet == "ros") {
     // What stands there stays down until somebody lets it take off; what is in the air hovers until somebody resumes
     // it.

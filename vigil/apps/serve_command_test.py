@@ -362,6 +362,17 @@ class Restart(unittest.TestCase):
             with self.assertRaisesRegex(RuntimeError, "another mission"):
                 Program(VIGIL, MISSIONS / "lab.yaml", "--state", folder)
 
+    def test_a_change_that_was_acknowledged_survives_a_kill_right_after_it(self):
+        with tempfile.TemporaryDirectory() as folder:
+            for revision in range(1, 6):
+                with paper("--state", folder) as program:
+                    client = WebSocket(program.port)
+                    client.hello()
+                    self.assertEqual(client.wait_for_type("targets")["revision"], revision)
+                    edit = {**EAST, "weight": revision + 1}
+                    self.assertEqual(client.ask(type="edit", id=1, based_on=revision, edits=[edit])["type"], "ack")
+                    program.kill()
+
     def test_another_mission_can_be_loaded(self):
         with paper() as program:
             client = WebSocket(program.port)

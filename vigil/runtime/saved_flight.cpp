@@ -85,6 +85,14 @@ bool write_through(const std::filesystem::path& path, const std::string& text) {
   return ::close(file) == 0 && is_flushed && written == text.size();
 }
 
+/// Flushes which files a folder has; false where that failed.
+bool flush_folder(const std::filesystem::path& folder) {
+  const int descriptor = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+  if (descriptor < 0) return false;
+  const bool is_flushed = ::fsync(descriptor) == 0;
+  return ::close(descriptor) == 0 && is_flushed;
+}
+
 }  // namespace
 
 std::string saved_text(const SavedFlight& flight) {
@@ -148,7 +156,7 @@ void FlightStore::save(const SavedFlight& flight) const {
     std::filesystem::rename(unfinished, path, error);
   else
     error = std::make_error_code(std::errc::io_error);
-  if (error) fail(path, "cannot be written", "make room, or name another folder");
+  if (error || !flush_folder(folder_)) fail(path, "cannot be written", "make room, or name another folder");
 }
 
 void FlightStore::clear() const {

@@ -42,7 +42,7 @@ class FlightStore {
   [[nodiscard]] const std::filesystem::path& folder() const { return folder_; }
   /// Nothing where nothing was saved. Throws SavedFlightError for a state that cannot be read or makes no sense.
   [[nodiscard]] std::optional<SavedFlight> load() const;
-  /// Throws SavedFlightError; what was saved before is still there then.
+  /// Once it returns, no crash loses it. Throws SavedFlightError; what is there then is this or what was saved before.
   void save(const SavedFlight& flight) const;
   /// Forgets what was saved.
   void clear() const;

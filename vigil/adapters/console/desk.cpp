@@ -19,6 +19,7 @@ constexpr Eigen::Index kDensityCells = 160;  ///< of a picture's longer side
 constexpr Eigen::Index kPreviewCells = 96;
 constexpr std::size_t kRecentTargets = 64;
 constexpr int kLooksASave = 5;
+constexpr double kSaveEveryS = 1.0;  ///< mission time, at most
 
 SharedBytes shared(std::string bytes) { return std::make_shared<const std::string>(std::move(bytes)); }
 
@@ -26,6 +27,14 @@ std::string density_of(const runtime::Mission& mission, Eigen::Index cells, cons
   const field::Field field = runtime::monitored_field(mission);
   const field::GridShape shape = runtime::grid_of(field, cells);
   return density_frame(field, field::rasterise(field, runtime::importance(mission), shape), context);
+}
+
+/// Where the drones of a flight are before its first tick.
+std::vector<runtime::SavedFlight::Drone> first_drones(const runtime::Mission& mission) {
+  const bool are_down = runtime::first_intent(mission) == swarm::Intent::kStayDown;
+  std::vector<runtime::SavedFlight::Drone> drones;
+  for (const Vec2& start : runtime::starts_in_field(mission)) drones.push_back({start, are_down});
+  return drones;
 }
 
 }  // namespace
@@ -43,11 +52,15 @@ void Desk::begin(const runtime::Mission& mission, const runtime::SavedFlight* sa
   ground_.emplace(mission);
   if (saved != nullptr && !ground_->seen().restore(saved->seen_s))
     tell_(DeskTrouble{"what was seen before the restart is not known: the state's map has another size"});
+  drones_ = saved != nullptr ? saved->drones : first_drones(mission);
   frame_.emplace(mission.drones.size());
   frame_version_ = 0;
   unsent_.reset();
   tell_(FlightNews{flight_, shared(in_text(mission_message(mission, epoch_))), saved != nullptr});
-  if (saved != nullptr) frame_->snapshot.time_s = static_cast<double>(saved->past.ticks) * runtime::tick_s(mission);
+  if (saved != nullptr) {
+    frame_->past = saved->past;
+    frame_->snapshot.time_s = static_cast<double>(saved->past.ticks) * runtime::tick_s(mission);
+  }
   retarget(0);
   flight_->start();
 }
@@ -60,7 +73,10 @@ void Desk::finish_flight() {
   }
 }
 
+/// Saves first: nobody hears of targets, and no tick uses them, that a crash could still undo.
 void Desk::retarget(std::uint64_t ticket) {
+  save();
+  if (ticket != 0) tell_(DeskAcceptance{ticket});
   const runtime::Mission& mission = desk_->mission();
   const DensityContext context{.epoch = epoch_, .revision = static_cast<std::uint32_t>(desk_->revision())};
   tell_(TargetsNews{shared(in_text(targets_json(*desk_, epoch_))), shared(density_of(mission, kDensityCells, context)),
@@ -75,7 +91,6 @@ void Desk::retarget(std::uint64_t ticket) {
   submit_target();
   ground_->retarget(mission, recent_targets_.back()->phi_k, frame_->snapshot.time_s);
   if (flight_->recorder() != nullptr) flight_->recorder()->targets(frame_->snapshot.time_s, mission.targets);
-  save();
 }
 
 void Desk::submit_target() {
@@ -88,7 +103,6 @@ void Desk::refuse(std::uint64_t ticket, std::string_view code, std::string reaso
 
 void Desk::finish_change(std::uint64_t ticket, const std::optional<runtime::Refusal>& refusal) {
   if (refusal) return refuse(ticket, code_of(refusal->code), refusal->reason);
-  if (ticket != 0) tell_(DeskAcceptance{ticket});
   retarget(ticket);
 }
 
@@ -157,6 +171,7 @@ void Desk::look() {
   if (!flight_) return;
   submit_target();
   if (!flight_->loop().read(*frame_, frame_version_)) return;
+  note_drones();
   GroundNews news;
   news.deadlines = ground_->look(*frame_);
   news.areas = ground_->areas(*frame_);
@@ -165,7 +180,15 @@ void Desk::look() {
   news.tick = frame_->snapshot.tick;
   news.time_s = frame_->snapshot.time_s;
   tell_(std::move(news));
-  if (++looks_ % kLooksASave == 0) save();
+  const double since_save_s = frame_->snapshot.time_s - saved_at_s_;
+  if (++looks_since_save_ >= kLooksASave || since_save_s >= kSaveEveryS) save();
+}
+
+void Desk::note_drones() {
+  for (std::size_t i = 0; i < drones_.size(); ++i) {
+    const swarm::DroneSnapshot& drone = frame_->snapshot.drones[i];
+    drones_[i] = {drone.position, !runtime::is_airborne(drone)};
+  }
 }
 
 void Desk::end() {
@@ -175,15 +198,16 @@ void Desk::end() {
 }
 
 void Desk::save() {
-  if (!store_ || !flight_ || !frame_->has_ticked) return;
+  if (!store_ || !flight_) return;
+  looks_since_save_ = 0;
+  saved_at_s_ = frame_->snapshot.time_s;
   runtime::SavedFlight saved;
   saved.mission_text = mission_text_;
   saved.targets_text = runtime::mission_yaml(desk_->mission());
   saved.revision = desk_->revision();
   saved.past = frame_->past;
   saved.seen_s.assign(ground_->seen().seen_s().begin(), ground_->seen().seen_s().end());
-  for (const swarm::DroneSnapshot& drone : frame_->snapshot.drones)
-    saved.drones.push_back({drone.position, !runtime::is_airborne(drone)});
+  saved.drones = drones_;
   try {
     store_->save(saved);
     save_failed_ = false;

@@ -53,7 +53,8 @@ struct DeskRefusal {
   std::string_view code;
   std::string reason;
 };
-/// A change was accepted; the control loop answers its ticket when it takes effect.
+/// A change was accepted, and is saved where a state is kept and can be written; the control loop answers its ticket
+/// when it takes effect.
 struct DeskAcceptance {
   std::uint64_t ticket = 0;
 };
@@ -103,7 +104,8 @@ class Desk {
   void load_mission(std::uint64_t ticket, const std::string& yaml);
   /// An event of the mission file wants other targets.
   void play(std::uint32_t epoch, std::size_t event_index);
-  /// To be called a few times a second: takes in the newest frame, tells GroundNews, saves once a second.
+  /// To be called five times a second: takes in the newest frame, tells GroundNews, and saves once a second, or as
+  /// often as it is called where a second of the mission is shorter.
   void look();
   /// Writes the state, where one is kept.
   void save();
@@ -114,6 +116,7 @@ class Desk {
   void finish_change(std::uint64_t ticket, const std::optional<runtime::Refusal>& refusal);
   void retarget(std::uint64_t ticket);
   void finish_flight();
+  void note_drones();
   void submit_target();
   void refuse(std::uint64_t ticket, std::string_view code, std::string reason);
 
@@ -127,10 +130,12 @@ class Desk {
   std::optional<runtime::GroundPicture> ground_;
   std::optional<runtime::LiveFrame> frame_;
   std::size_t frame_version_ = 0;
-  std::optional<runtime::LiveCommand> unsent_;  ///< a target that found the control loop's queue full
+  std::vector<runtime::SavedFlight::Drone> drones_;  ///< where they were last known to be
+  std::optional<runtime::LiveCommand> unsent_;       ///< a target that found the control loop's queue full
   /// The control thread must not be the last to let go of one.
   std::deque<std::shared_ptr<const swarm::CoverageTarget>> recent_targets_;
-  int looks_ = 0;
+  int looks_since_save_ = 0;
+  double saved_at_s_ = 0.0;  ///< mission time
   bool save_failed_ = false;
   runtime::PreviewThread previews_;  ///< last: it ends before what it tells is gone
 };

@@ -29,7 +29,11 @@ class DeskTest : public ::testing::Test {
           [this](const runtime::Mission& mission, std::uint32_t epoch, const runtime::SavedFlight* saved) {
             return flight = flight_by_hand(mission, epoch, saved, now);
           },
-          [this](DeskNews one) { news.push_back(std::move(one)); }, store);
+          [this](DeskNews one) {
+            if (on_news) on_news();
+            news.push_back(std::move(one));
+          },
+          store);
     return *desk_;
   }
   void tick(int times = 1) {
@@ -48,6 +52,7 @@ class DeskTest : public ::testing::Test {
   std::shared_ptr<runtime::FlightStore> store;
   std::shared_ptr<runtime::LiveMission> flight;
   std::vector<DeskNews> news;
+  std::function<void()> on_news;  ///< called before they are kept
   std::chrono::nanoseconds now{1000s};
 
  private:
@@ -199,6 +204,86 @@ TEST_F(DeskTest, What_it_saves_is_what_the_next_run_goes_on_with) {
   EXPECT_EQ(newest_frame(*flight).snapshot.tick, 100U);
   desk().end();
   EXPECT_GE(store->load()->seen_s.size(), seen_s.size());
+}
+
+TEST_F(DeskTest, A_change_is_saved_before_anybody_hears_of_it_or_a_tick_uses_it_also_before_the_first_tick) {
+  store = std::make_shared<runtime::FlightStore>(folder);
+  fly();
+  std::uint64_t revision = 1;
+  on_news = [&] {
+    ASSERT_TRUE(store->load());
+    EXPECT_EQ(store->load()->revision, revision);
+    tick();
+    EXPECT_EQ(newest_frame(*flight).revision, revision - 1);
+  };
+  revision = 2;
+  desk().edit(5, {weigh("east", 3.0)}, 1, "Ana");
+  tick();
+  revision = 3;
+  desk().undo(6, "Ana");
+  tick();
+  revision = 4;
+  desk().redo(7, "Ana");
+  EXPECT_EQ(told<DeskAcceptance>().size(), 3U);
+}
+
+TEST_F(DeskTest, What_is_saved_before_the_first_tick_is_a_flight_that_can_go_on) {
+  store = std::make_shared<runtime::FlightStore>(folder);
+  fly();
+  desk().edit(5, {weigh("east", 3.0)}, 1, "Ana");
+  const auto first = store->load();
+  ASSERT_TRUE(first);
+  ASSERT_EQ(first->drones.size(), 3U);
+  EXPECT_EQ(first->drones[1].place_m, Vec2(1.5, 1.0));
+  EXPECT_FALSE(first->drones[1].is_down);
+
+  runtime::SavedFlight later = *first;
+  later.past.ticks = 100;
+  later.drones[1] = {{0.7, 0.8}, true};
+  desk().begin(runtime::parse_mission(later.targets_text, "the saved state"), &later);
+  desk().edit(6, {weigh("east", 4.0)}, 2, "Ana");
+  const auto again = store->load();
+  EXPECT_EQ(again->revision, 3U);
+  EXPECT_EQ(again->past.ticks, 100U);
+  EXPECT_EQ(again->drones[1].place_m, Vec2(0.7, 0.8));
+  EXPECT_TRUE(again->drones[1].is_down);
+}
+
+TEST_F(DeskTest, A_mission_that_was_loaded_is_saved_before_that_is_answered) {
+  store = std::make_shared<runtime::FlightStore>(folder);
+  fly();
+  std::string other = runtime::kSmallMission;
+  other.replace(other.find("name: small"), 11, "name: other");
+  desk().load_mission(6, other);
+  ASSERT_EQ(told<DeskAnswer>().size(), 1U);
+  EXPECT_NE(store->load()->mission_text.find("name: other"), std::string::npos);
+}
+
+TEST_F(DeskTest, It_saves_once_a_second_of_the_mission_and_at_each_look_where_that_is_shorter) {
+  store = std::make_shared<runtime::FlightStore>(folder);
+  fly();
+  const auto saved_ticks_after = [&](int ticks_a_look, int looks) {
+    for (int n = 0; n < looks; ++n) {
+      tick(ticks_a_look);
+      desk().look();
+    }
+    return store->load()->past.ticks;
+  };
+  EXPECT_EQ(saved_ticks_after(10, 4), 0U);     // at 50 Hz 0.8 s
+  EXPECT_EQ(saved_ticks_after(10, 1), 50U);    // the fifth look
+  EXPECT_EQ(saved_ticks_after(100, 1), 150U);  // ten times as fast as time
+  EXPECT_EQ(saved_ticks_after(200, 1), 350U);
+}
+
+TEST_F(DeskTest, A_change_that_cannot_be_saved_is_made_and_said_to_be_in_danger) {
+  store = std::make_shared<runtime::FlightStore>(folder);
+  fly();
+  std::filesystem::remove_all(folder);
+  desk().edit(5, {weigh("east", 3.0)}, 1, "Ana");
+  EXPECT_EQ(told<DeskAcceptance>().size(), 1U);
+  EXPECT_EQ(told<DeskTrouble>().size(), 1U);
+  tick();
+  EXPECT_EQ(newest_frame(*flight).revision, 2U);
 }
 
 TEST_F(DeskTest, A_state_that_cannot_be_written_is_told_once_and_the_flight_goes_on) {
