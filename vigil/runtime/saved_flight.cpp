@@ -5,6 +5,7 @@
 #include <fstream>
 #include <iterator>
 #include <limits>
+#include <system_error>
 #include <unistd.h>
 #include <utility>
 
@@ -129,6 +130,13 @@ FlightStore::FlightStore(std::filesystem::path folder) : folder_(std::move(folde
   std::error_code error;
   std::filesystem::create_directories(folder_, error);
   if (error) fail(folder_, "cannot be made (" + error.message() + ")", "name a folder where you may write");
+  try {
+    lock_ = FolderLock::take(folder_);
+  } catch (const std::system_error& problem) {
+    fail(folder_, "cannot be locked (" + problem.code().message() + ")",
+         "name a folder of a local disk where you may write");
+  }
+  if (!lock_) fail(folder_, "another vigil keeps its state there", "end that one first, or name another folder");
 }
 
 std::optional<SavedFlight> FlightStore::load() const {

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "vigil/core/field/vec2.hpp"
+#include "vigil/runtime/folder_lock.hpp"
 #include "vigil/swarm/tick.hpp"
 
 namespace vigil::runtime {
@@ -33,10 +34,11 @@ class SavedFlightError : public std::runtime_error {
 };
 
 /// A folder with the newest SavedFlight, replaced as a whole and flushed to the disk, so that whenever the program or
-/// the machine dies, one complete state is there.
+/// the machine dies, one complete state is there. While it lives no other can be had of the same folder, here or in
+/// another program.
 class FlightStore {
  public:
-  /// Makes the folder where it is not. Throws SavedFlightError.
+  /// Makes the folder where it is not. Throws SavedFlightError, also where another program uses it.
   explicit FlightStore(std::filesystem::path folder);
 
   [[nodiscard]] const std::filesystem::path& folder() const { return folder_; }
@@ -49,6 +51,7 @@ class FlightStore {
 
  private:
   std::filesystem::path folder_;
+  std::optional<FolderLock> lock_;
 };
 
 /// As text, and back. saved_flight throws SavedFlightError.

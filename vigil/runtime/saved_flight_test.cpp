@@ -80,6 +80,27 @@ TEST_F(FlightStoreTest, What_makes_no_sense_is_refused_with_advice) {
   EXPECT_THROW((void)saved_flight(text), SavedFlightError);
 }
 
+TEST_F(FlightStoreTest, A_folder_has_one_user_at_a_time_and_the_second_is_told_what_to_do) {
+  {
+    const FlightStore first(folder);
+    try {
+      const FlightStore second(folder);
+      ADD_FAILURE() << "two share a folder";
+    } catch (const SavedFlightError& error) {
+      const std::string line = error.what();
+      EXPECT_EQ(line.find(folder.string()), 0U) << line;
+      EXPECT_NE(line.find("end that one first"), std::string::npos) << line;
+    }
+    first.save(some_flight());
+  }
+  EXPECT_TRUE(FlightStore(folder).load());
+}
+
+TEST_F(FlightStoreTest, A_folder_that_cannot_be_locked_is_refused) {
+  std::filesystem::create_directories(folder / "lock");  // a folder where the lock's file would be
+  EXPECT_THROW((void)FlightStore(folder), SavedFlightError);
+}
+
 TEST_F(FlightStoreTest, What_is_cleared_is_gone) {
   const FlightStore store(folder);
   store.save(some_flight());
