@@ -82,7 +82,7 @@ MissionDesk::MissionDesk(Mission mission, std::uint64_t revision, std::string by
     : mission_(std::move(mission)), revision_(revision), by_(std::move(by)), all_changed_at_(revision) {}
 
 bool MissionDesk::is_stale(std::span<const TargetEdit> edits, std::uint64_t based_on) const {
-  if (based_on > revision_ || based_on < all_changed_at_) return true;
+  if (based_on < all_changed_at_) return true;
   for (const TargetEdit& edit : edits) {
     for (const TargetName& name : touched_by(edit)) {
       const auto found = changed_at_.find(name);
@@ -97,6 +97,10 @@ std::variant<Mission, Refusal> MissionDesk::draft(std::span<const TargetEdit> ed
     return Refusal{
         Refusal::Code::kInvalid,
         fmt::format("edits: has {} entries; must have 1 to {}; make smaller changes", edits.size(), kMostEdits)};
+  if (based_on > revision_)
+    return Refusal{Refusal::Code::kStale,
+                   fmt::format("based_on: there is no revision {}; the newest is {}; look at that and change it again",
+                               based_on, revision_)};
   if (is_stale(edits, based_on))
     return Refusal{
         Refusal::Code::kStale,

@@ -106,7 +106,15 @@ TEST(MissionDeskTest, Two_people_who_change_different_things_do_not_hinder_each_
   ASSERT_TRUE(refusal);
   EXPECT_EQ(refusal->code, Refusal::Code::kStale);
   EXPECT_FALSE(desk.edit(also_east, desk.revision(), "Ben"));
-  EXPECT_TRUE(desk.edit(his, 99, "Ben"));  // of the future
+}
+
+TEST(MissionDeskTest, A_change_of_a_revision_that_is_yet_to_come_is_told_which_is_the_newest) {
+  MissionDesk desk(small_mission());
+  const std::vector<TargetEdit> edits{SetWeight{kEast, 2.0}};
+  const auto refusal = desk.edit(edits, 99, "Ana");
+  ASSERT_TRUE(refusal);
+  EXPECT_EQ(refusal->code, Refusal::Code::kStale);
+  EXPECT_EQ(refusal->reason, "based_on: there is no revision 99; the newest is 1; look at that and change it again");
 }
 
 TEST(MissionDeskTest, Undo_and_redo_walk_through_all_changes_and_a_new_one_ends_redo) {
