@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "vigil/adapters/console/seats.hpp"
 #include "vigil/runtime/mission_error.hpp"
 #include "vigil/runtime/mission_setup.hpp"
 
@@ -108,8 +109,15 @@ void Hub::greet(Client& client, const Hello& hello) {
   const std::optional<Role> role = role_for(hello.token);
   if (!role)
     return part_with(client.who.client, "bad_token", "this token opens nothing; ask who runs the server for one");
+  const Role wished = hello.role ? std::min(*hello.role, *role) : *role;
+  const auto known = std::ranges::count_if(clients_, [](const auto& one) { return one.second.has_said_hello; });
+  if (static_cast<std::size_t>(known) >= places_for(wished))
+    return part_with(
+        client.who.client, "too_many",
+        fmt::format("full: {} comes in while fewer than {} are here; close other pages, or try again later",
+                    name_of(wished), places_for(wished)));
   client.has_said_hello = true;
-  client.who.role = hello.role ? std::min(*hello.role, *role) : *role;
+  client.who.role = wished;
   client.who.name = name_or(hello.name, client.who.client);
   show_everything(client);
   tell_presence();

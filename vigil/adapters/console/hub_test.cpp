@@ -4,6 +4,7 @@
 
 #include "vigil/adapters/console/console_for_tests.hpp"
 #include "vigil/adapters/console/outbound.hpp"
+#include "vigil/adapters/console/seats.hpp"
 
 namespace vigil::console {
 namespace {
@@ -99,6 +100,23 @@ TEST(HubTest, One_may_be_less_than_one_may_be_and_never_more) {
   };
   EXPECT_EQ(role("pilot-0123456789", "viewer"), "viewer");
   EXPECT_EQ(role("viewer-0123456789", "safety_pilot"), "viewer");
+}
+
+TEST(HubTest, However_many_come_with_one_roles_token_those_above_it_find_a_place) {
+  ConsoleForTests console(three_doors());
+  const auto let_in = [&](const char* token) {
+    std::size_t count = 0;
+    for (std::size_t n = 0; n < kMostConnections; ++n)
+      if (!console.join({{"token", token}}).line->is_closed) ++count;
+    return count;
+  };
+  EXPECT_EQ(let_in("viewer-0123456789"), 192U);
+  EXPECT_EQ(let_in("operator-0123456789"), 16U);
+  EXPECT_EQ(let_in("pilot-0123456789"), 16U);
+  console.hub.disconnect(1);
+  EXPECT_EQ(let_in("viewer-0123456789"), 0U);  // fewer than 192 must be there
+  EXPECT_EQ(let_in("pilot-0123456789"), 1U);
+  EXPECT_EQ(console.join({{"token", "viewer-0123456789"}}).line->of("bye").front().at("code"), "too_many");
 }
 
 /// Every command, and the least role that protocol/README.md gives it to.

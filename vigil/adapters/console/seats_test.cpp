@@ -55,6 +55,12 @@ TEST(Seats, A_crowd_of_strangers_pushes_out_its_own_and_the_first_of_them_first)
   EXPECT_EQ(next.size(), 1U);
 }
 
+TEST(Seats, Each_role_leaves_places_to_those_above_it_and_all_to_strangers) {
+  EXPECT_LE(places_for(Role::kViewer) + 16, places_for(Role::kOperator));
+  EXPECT_LE(places_for(Role::kOperator) + 16, places_for(Role::kSafetyPilot));
+  EXPECT_LE(places_for(Role::kSafetyPilot) + 32, kMostConnections);
+}
+
 TEST(Seats, A_place_is_free_again_when_its_guest_is_gone) {
   Seats seats(1);
   come(seats, "10.0.0.1", 1, false);
