@@ -9,13 +9,16 @@
 
 #include "vigil/adapters/console/role.hpp"
 #include "vigil/core/field/vec2.hpp"
+#include "vigil/runtime/mission_text.hpp"
 #include "vigil/runtime/target_edit.hpp"
 #include "vigil/swarm/command.hpp"
 
 /// What clients say, by protocol/README.md. Everything that arrives is checked here, once.
 namespace vigil::console {
 
-inline constexpr std::size_t kMostMessageBytes = 1'572'864;
+/// A mission file of the greatest size with all that JSON makes two characters of one (\" of "), and what stands around
+/// it.
+inline constexpr std::size_t kMostMessageBytes = 2 * runtime::kMostMissionBytes + 1024;
 
 struct Hello {
   std::string name;
