@@ -134,6 +134,14 @@ bool ticks_may_come_first() {
   return may;
 }
 
+void announce(const std::string& mission, const std::string& url, bool is_restored) {
+  fmt::print("vigil: {} at {}\n", mission, url);
+  if (!ticks_may_come_first())
+    fmt::print("vigil: without real-time priority ticks begin late on a busy machine; `ulimit -r 1` would allow it\n");
+  if (is_restored) fmt::print("vigil: goes on where it was; drones in the air hold until somebody resumes them\n");
+  std::fflush(stdout);
+}
+
 int run(const ServeOptions& options, const std::string& version) {
   runtime::Mission mission = choose_mission(options.mission, options.settings);
   std::shared_ptr<runtime::FlightStore> store;
@@ -148,18 +156,16 @@ int run(const ServeOptions& options, const std::string& version) {
   if (options.ros || options.fleet == "ros") ros.emplace(*console::role_of(options.ros_role));
   console::ServerOptions served = server_options(options, version);
   if (ros) served.overhear = [&ros](const console::DeskNews& news) { ros->overhear(news); };
+  std::string url;
+  served.ready = [&] { announce(mission.name, url, saved.has_value()); };
   console::Server server(
       served,
       [&options, &ros](const runtime::Mission& one, std::uint32_t epoch, const runtime::SavedFlight* of) {
         return make_flight(one, options, epoch, of, ros ? &*ros : nullptr);
       },
       store);
+  url = server.url();
   catch_interrupts();
-  fmt::print("vigil: {} at {}\n", mission.name, server.url());
-  if (!ticks_may_come_first())
-    fmt::print("vigil: without real-time priority ticks begin late on a busy machine; `ulimit -r 1` would allow it\n");
-  if (saved) fmt::print("vigil: goes on where it was; drones in the air hold until somebody resumes them\n");
-  std::fflush(stdout);
   if (ros) ros->attach(server);
   server.run(mission, saved ? &*saved : nullptr, is_interrupted);
   if (ros) ros->release();

@@ -316,6 +316,41 @@ class Doors(unittest.TestCase):
                 command = {"type": "land_all", "id": 1}
                 self.assertEqual(program.json("POST", "/api/commands", command, **bearer)[0], 403)
 
+    def test_whoever_has_the_viewers_token_fills_the_console_for_viewers_alone(self):
+        with tempfile.TemporaryDirectory() as folder:
+            tokens = pathlib.Path(folder, "tokens")
+            tokens.write_text("viewer viewer-token-0123456789\nsafety_pilot pilot-token-0123456789\n")
+            with paper("--tokens", tokens) as program:
+                crowd = [WebSocket(program.port) for _ in range(256)]
+                for one in crowd:
+                    one.send({"type": "hello", "token": "viewer-token-0123456789"})
+                told = [one.wait_for(lambda m: m["type"] in ("hello", "bye")) for one in crowd]
+                self.assertEqual(sum(message["type"] == "hello" for message in told), 192)
+                self.assertEqual({one["code"] for one in told if one["type"] == "bye"}, {"too_many"})
+                pilot = WebSocket(program.port)
+                self.assertEqual(pilot.hello(token="pilot-token-0123456789")["role"], "safety_pilot")
+                self.assertEqual(pilot.ask(type="emergency_stop", id=1, drones="all")["type"], "ack")
+                bearer = {"Authorization": "bearer pilot-token-0123456789"}
+                self.assertEqual(program.json("GET", "/api/state", **bearer)[0], 200)
+
+    def test_a_request_for_two_hosts_is_refused(self):
+        with paper() as program:
+            for target, more in [("/api/state", ""), ("/live", "Upgrade: websocket\r\nConnection: Upgrade\r\n")]:
+                with socket.create_connection(("127.0.0.1", program.port), PATIENCE_S) as one:
+                    hosts = f"Host: 127.0.0.1:{program.port}\r\nHost: evil.example\r\n"
+                    one.sendall(f"GET {target} HTTP/1.1\r\n{hosts}{more}\r\n".encode())
+                    self.assertIn(b" 400 ", one.recv(64))
+
+    def test_a_mission_of_the_greatest_size_is_flown_however_json_writes_it(self):
+        text = (MISSIONS / "paper.yaml").read_text()
+        with paper() as program:
+            client = WebSocket(program.port)
+            client.hello()
+            largest = text + "#" + '"' * ((1 << 20) - len(text.encode()) - 2) + "\n"
+            self.assertEqual(client.ask(type="load_mission", id=1, yaml=largest)["type"], "ack")
+            answer = client.ask(type="load_mission", id=2, yaml=largest + "#")
+            self.assertEqual((answer["type"], answer["code"]), ("refused", "malformed"))
+
     def refused(self, *arguments):
         command = [VIGIL, "serve", str(MISSIONS / "paper.yaml"), *map(str, arguments)]
         done = subprocess.run(command, capture_output=True, text=True, timeout=PATIENCE_S, check=False)
@@ -329,6 +364,10 @@ class Doors(unittest.TestCase):
         self.assertEqual(self.refused("--fleet", "kites")[0], 2)
         self.assertEqual(self.refused("--certificate", "x")[0], 2)
         self.assertEqual(self.refused("--tokens", "/nonexistent")[0], 2)
+        with tempfile.TemporaryDirectory() as folder, paper("--state", folder):
+            code, line = self.refused("--state", folder)
+            self.assertEqual(code, 3)
+            self.assertIn(f"{folder}: another vigil keeps its state there; end that one first", line)
         with paper() as program:
             self.assertIn("cannot listen", self.refused("--port", program.port)[1])
 
@@ -372,6 +411,11 @@ class Restart(unittest.TestCase):
                     edit = {**EAST, "weight": revision + 1}
                     self.assertEqual(client.ask(type="edit", id=1, based_on=revision, edits=[edit])["type"], "ack")
                     program.kill()
+
+    def test_who_knows_the_address_can_ask_for_the_state(self):
+        for _ in range(5):
+            with paper() as program:
+                self.assertEqual(program.json("GET", "/api/state")[0], 200)
 
     def test_another_mission_can_be_loaded(self):
         with paper() as program:

@@ -23,12 +23,6 @@ std::string_view take_word(std::string_view& line) {
   return word;
 }
 
-std::string lower(std::string_view text) {
-  std::string result(text);
-  for (char& c : result) c = c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
-  return result;
-}
-
 /// Of "name:port" or "[::1]:port".
 std::string_view without_port(std::string_view authority) {
   const std::size_t bracket = authority.rfind(']');
@@ -38,6 +32,12 @@ std::string_view without_port(std::string_view authority) {
 }
 
 }  // namespace
+
+std::string lower(std::string_view text) {
+  std::string result(text);
+  for (char& c : result) c = c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
+  return result;
+}
 
 bool equal_in_constant_time(std::string_view a, std::string_view b) noexcept {
   unsigned difference = a.size() == b.size() ? 0U : 1U;
@@ -64,6 +64,11 @@ Tokens Tokens::parse(std::string_view text, const std::string& name) {
           fmt::format("{}:{}: must be a role ({}) and a token of {} to {} characters without spaces; "
                       "make one with: openssl rand -hex 24",
                       name, number, fmt::join(kRoleWords, ", "), kLeastBytes, kMostTokenBytes));
+    if (tokens.role_for(token).value_or(*role) != *role)
+      throw SetupError(
+          fmt::format("{}:{}: this token stands for another role above; give each role its own tokens, "
+                      "or remove one of the two lines",
+                      name, number));
     tokens.entries_.push_back({*role, std::string(token)});
   }
   if (tokens.entries_.empty() || tokens.entries_.size() > kMostTokens)

@@ -18,6 +18,9 @@ class SetupError : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
+/// With small letters for A to Z.
+[[nodiscard]] std::string lower(std::string_view text);
+
 /// Compares all of both texts, however early they differ: the time tells nothing but their lengths.
 [[nodiscard]] bool equal_in_constant_time(std::string_view a, std::string_view b) noexcept;
 
@@ -26,11 +29,12 @@ class Tokens {
  public:
   static constexpr std::size_t kLeastBytes = 16;
 
-  /// Lines of `role token`; empty lines and those that begin with # do not count. Throws SetupError.
+  /// Lines of `role token`; empty lines and those that begin with # do not count. Throws SetupError, also for a token
+  /// of two roles.
   [[nodiscard]] static Tokens parse(std::string_view text, const std::string& name);
   [[nodiscard]] static Tokens read(const std::filesystem::path& path);
 
-  /// The highest role that the token opens; nothing where it opens none. Looks at every token, always.
+  /// The role that the token opens; nothing where it opens none. Looks at every token, always.
   [[nodiscard]] std::optional<Role> role_for(std::string_view token) const noexcept;
 
  private:

@@ -29,8 +29,9 @@ TEST(AccessTest, A_token_opens_its_role_and_nothing_else_does) {
 }
 
 TEST(AccessTest, A_file_of_tokens_that_opens_too_much_or_nothing_is_refused_with_its_line) {
-  for (const char* text : {"", "# nothing\n", "admiral aaaaaaaaaaaaaaaa\n", "viewer short\n", "viewer\n",
-                           "viewer aaaaaaaaaaaaaaaa and more\n"}) {
+  for (const char* text :
+       {"", "# nothing\n", "admiral aaaaaaaaaaaaaaaa\n", "viewer short\n", "viewer\n",
+        "viewer aaaaaaaaaaaaaaaa and more\n", "viewer aaaaaaaaaaaaaaaa\noperator aaaaaaaaaaaaaaaa\n"}) {
     EXPECT_THROW((void)Tokens::parse(text, "tokens"), SetupError) << text;
   }
   try {

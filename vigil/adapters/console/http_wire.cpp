@@ -45,6 +45,12 @@ HttpRequest http_request(WireRequest& request) {
           std::move(request.body())};
 }
 
+std::optional<HttpAnswer> request_refusal(const WireRequest& request) {
+  // What stands before this server may have looked at the other one (RFC 9112, 3.2).
+  if (request.count(http::field::host) > 1) return in_words(400, "a request has one Host header");
+  return std::nullopt;
+}
+
 std::optional<HttpAnswer> upgrade_refusal(const WireRequest& request, const Gate& gate) {
   const std::string host = header(request, http::field::host);
   if (!gate.admits_host(host)) return in_words(421, "this name is not one of the server's");

@@ -26,6 +26,9 @@ void bound(WireParser& parser);
 /// Takes the body out of `request`; the rest stays.
 [[nodiscard]] HttpRequest http_request(WireRequest& request);
 
+/// Why a request is not looked at; nothing where it is.
+[[nodiscard]] std::optional<HttpAnswer> request_refusal(const WireRequest& request);
+
 /// Why a request for a WebSocket is not granted; nothing where it is. Precondition: it is one.
 [[nodiscard]] std::optional<HttpAnswer> upgrade_refusal(const WireRequest& request, const Gate& gate);
 

@@ -83,6 +83,9 @@ class Hub {
   [[nodiscard]] bool knows(ClientId client) const;
   [[nodiscard]] std::size_t clients() const { return clients_.size(); }
 
+  /// Whether there is a tick of the flight to show.
+  [[nodiscard]] bool has_ticked() const { return flight_ && frame_->has_ticked; }
+
   // For REST: the newest of everything; null before there is any.
   [[nodiscard]] Json state() const;
   [[nodiscard]] const runtime::Mission* mission() const { return mission_ ? &*mission_ : nullptr; }

@@ -38,8 +38,9 @@ bool is_json(const std::string& content_type) {
 }
 
 std::string bearer_of(const std::string& authorization) {
-  constexpr std::string_view kScheme = "Bearer ";
-  return authorization.starts_with(kScheme) ? authorization.substr(kScheme.size()) : std::string();
+  constexpr std::string_view kScheme = "bearer ";  // in any case (RFC 9110, 11.1)
+  if (lower(std::string_view(authorization).substr(0, kScheme.size())) != kScheme) return {};
+  return authorization.substr(kScheme.size());
 }
 
 HttpAnswer not_found() {

@@ -164,8 +164,10 @@ TEST_F(LockedRestTest, A_token_opens_what_its_role_may_and_nothing_opens_more) {
     state.authorization = header;
     EXPECT_EQ(status(state), 401) << header;
   }
-  state.authorization = "Bearer viewer-0123456789";
-  EXPECT_EQ(status(state), 200);
+  for (const char* header : {"Bearer viewer-0123456789", "bearer viewer-0123456789", "BEARER viewer-0123456789"}) {
+    state.authorization = header;
+    EXPECT_EQ(status(state), 200) << header;
+  }
   HttpRequest land = command({{"type", "land_all"}, {"id", 1}});
   land.authorization = "Bearer viewer-0123456789";
   EXPECT_EQ(status(land), 403);

@@ -202,6 +202,7 @@ class Visit final : public Guest, public std::enable_shared_from_this<Visit<Stre
 
   void take() {
     request_ = parser_->release();
+    if (const auto refusal = request_refusal(request_)) return send(*refusal, false);
     if (websocket::is_upgrade(request_)) return upgrade();
     // The answer may come later, when the connection is gone; then nobody is told.
     host_.rest.answer(http_request(request_), [self = this->shared_from_this()](const HttpAnswer& answer) {
@@ -289,6 +290,7 @@ class Server::Sockets {
         desk_(
             std::move(make_flight), [this](DeskNews news) { tell_hub(std::move(news)); }, std::move(store)),
         overhear_(options.overhear),
+        ready_(options.ready),
         address_(options.address) {
     listen(endpoint_of(options));
   }
@@ -376,6 +378,7 @@ class Server::Sockets {
 
   void poll() {
     hub_.poll();
+    if (ready_ && hub_.has_ticked()) std::exchange(ready_, nullptr)();
     poll_timer_.expires_after(kPollEvery);
     poll_timer_.async_wait([this](Error error) {
       if (!error) poll();
@@ -415,6 +418,7 @@ class Server::Sockets {
   Desk desk_;
   std::optional<DeskThread> desk_thread_;
   std::function<void(const DeskNews&)> overhear_;
+  std::function<void()> ready_;  ///< until it was called
   std::string address_;
 };
 

@@ -25,15 +25,13 @@ struct ServerOptions {
   std::string program;         ///< "vigil 0.1.0"
   std::string recording_folder;
   std::function<void(const DeskNews&)> overhear;  ///< told of what the desk does, on its thread; may be empty
+  std::function<void()> ready;  ///< called once, by run(), when the first tick can be asked for; may be empty
 };
 
 /// The console's server: HTTP and WebSockets for whoever looks at a flight, and the desk behind it. Beside the control
 /// thread of the flight it has two: the sockets' (the one that calls run()) and the desk's.
 class Server {
  public:
-  /// At most so many connections at a time; see Seats for who stays.
-  static constexpr std::size_t kMostConnections = 256;
-
   /// Listens at once. store: null where nothing is kept. Throws SetupError.
   Server(const ServerOptions& options, Desk::MakeFlight make_flight, std::shared_ptr<runtime::FlightStore> store);
   ~Server();
