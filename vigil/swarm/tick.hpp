@@ -25,7 +25,8 @@ struct SwarmPast {
   ergodic::CoverageRecord coverage;
 };
 
-/// The whole controller between two ticks, as one value: copy it and run the copy ahead to look into the future.
+/// The whole controller between two ticks, as one value: copy it and run the copy ahead to look into the future. A copy
+/// may allocate in its first ticks.
 class SwarmState {
  public:
   /// Precondition: parameters that mission checks accepted. Allocates all that ticks will ever need.

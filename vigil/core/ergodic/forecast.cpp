@@ -32,17 +32,17 @@ Forecast::Forecast(const Basis& basis, std::size_t drones, int pieces)
       excess_(static_cast<std::size_t>(pieces), Coefficients::Zero(basis.indices_per_axis(), basis.indices_per_axis())),
       a_k_(excess_.front()) {
   assert(pieces >= 1);
-  const std::size_t nodes = drones * excess_.size();
-  midpoints_.reserve(nodes);
-  midpoint_slopes_.reserve(nodes);
-  ends_.reserve(nodes);
-  slopes_.reserve(nodes);
+  most_nodes_ = drones * excess_.size();
+  midpoints_.reserve(most_nodes_);
+  midpoint_slopes_.reserve(most_nodes_);
+  ends_.reserve(most_nodes_);
+  slopes_.reserve(most_nodes_);
 }
 
 void Forecast::run(Kernel& kernel, const CoverageStatistics& statistics, const Coefficients& phi_k,
                    const AllowedRegion& region, const Paths& paths) noexcept {
   assert(paths.velocities.size() == paths.starts.size() * excess_.size() && paths.piece_s > 0.0);
-  assert(paths.velocities.size() <= slopes_.capacity());
+  assert(paths.velocities.size() <= most_nodes_);
   drones_ = paths.starts.size();
   midpoints_.resize(paths.velocities.size());  // within their capacity
   midpoint_slopes_.resize(paths.velocities.size());

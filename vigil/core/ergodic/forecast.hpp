@@ -68,8 +68,9 @@ class Forecast {
   Emphasis emphasis_ = Emphasis::kMetric;
   std::vector<Coefficients> excess_;  ///< D_j
   Coefficients a_k_;
-  std::size_t drones_ = 0;  ///< of the last run
-  double moment_s2_ = 0.0;  ///< of the last run: gain x piece_s
+  std::size_t most_nodes_ = 0;  ///< of a run; a copy, which has not their room yet, makes it at its first run
+  std::size_t drones_ = 0;      ///< of the last run
+  double moment_s2_ = 0.0;      ///< of the last run: gain x piece_s
   // Piece j of drone i at j x drones_ + i: the kernel takes all drones of one piece at once.
   std::vector<Vec2> midpoints_;
   std::vector<Vec2> midpoint_slopes_;
