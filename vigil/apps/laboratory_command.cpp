@@ -20,6 +20,7 @@
 #include "vigil/runtime/controller_setup.hpp"
 #include "vigil/runtime/mission_error.hpp"
 #include "vigil/runtime/mission_setup.hpp"
+#include "vigil/runtime/thread_priority.hpp"
 
 namespace vigil::apps {
 namespace {
@@ -70,6 +71,7 @@ class Flight {
             {"min_wall_distance_m", metres(totals.least.wall_m)},
             {"max_speed_m_s", totals.max_speed_m_s},
             {"setpoints", setpoints_},
+            {"longest_pause_s", longest_pause_s_},
             {"longest_silence_s", longest_silence_s_}};
   }
 
@@ -90,6 +92,7 @@ class Flight {
     snapshot_.drones[i].mode = mode;
     snapshot_.drones[i].activity = mode == VehicleMode::kFlying ? swarm::Activity::kActive : swarm::Activity::kGrounded;
     setpoints_ = std::max(setpoints_, told.setpoints);
+    longest_pause_s_ = std::max(longest_pause_s_, told.longest_pause_s);
     longest_silence_s_ = std::max(longest_silence_s_, told.longest_silence_s);
   }
 
@@ -115,10 +118,13 @@ class Flight {
   std::vector<Action> wanted_;
   std::vector<swarm::DroneOrder> orders_;
   std::uint64_t setpoints_ = 0;
+  double longest_pause_s_ = 0.0;
   double longest_silence_s_ = 0.0;
 };
 
+/// Vehicles do not wait for the program that flies them.
 void fly(Flight& flight) {
+  (void)runtime::take_real_time_priority();
   const auto step = std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(1.0 / kRateHz));
   auto next = Clock::now();
   while (!is_interrupted()) {

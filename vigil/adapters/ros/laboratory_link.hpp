@@ -27,7 +27,8 @@ class StandInCrazyswarm {
     bool has_setpoint = false;
     Point velocity_m_s;
     std::uint64_t setpoints = 0;     ///< how many ever came
-    double longest_silence_s = 0.0;  ///< between the sending of two of a stream
+    double longest_pause_s = 0.0;    ///< between the sending of two of a stream, by their stamps
+    double longest_silence_s = 0.0;  ///< between the coming of two of a stream
   };
   [[nodiscard]] Told take(std::size_t drone);
 

@@ -16,6 +16,7 @@
 #include <ros/xmlrpc_manager.h>
 
 #include "vigil/adapters/ros/registry.hpp"
+#include "vigil/runtime/thread_priority.hpp"
 
 namespace vigil::ros_bridge {
 namespace {
@@ -41,7 +42,8 @@ void start_node(const std::string& node) {
   if (!ros::master::check())
     throw RosError("no ROS master answers at " + ros::master::getURI() +
                    "; start roscore there, set ROS_MASTER_URI to where it is, or start all by ./run --with-ros");
-  ros::start();
+  // roscpp writes what is published, and reads what comes, on threads of its own, which it starts here.
+  runtime::start_with_real_time_priority(ros::start);
 }
 
 }  // namespace

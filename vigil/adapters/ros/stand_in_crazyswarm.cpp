@@ -10,11 +10,14 @@
 #include "vigil/adapters/ros/laboratory_link.hpp"
 #include "vigil/adapters/ros/registry.hpp"
 #include "vigil/adapters/ros/ros_name.hpp"
+#include "vigil/runtime/thread_priority.hpp"
 
 namespace vigil::ros_bridge {
 namespace {
 
 constexpr double kSetpointStandsForS = 0.5;
+/// All that come are looked at: one that was overwritten here would look like one that was not sent.
+constexpr std::uint32_t kSetpointsThatWait = 100;
 
 }  // namespace
 
@@ -26,7 +29,7 @@ class StandInCrazyswarm::Wire {
       names_.push_back(ros_name(drones[i]));
       listen(i);
     }
-    spinner_.start();
+    runtime::start_with_real_time_priority([this] { spinner_.start(); });
   }
 
   ~Wire() {
@@ -71,7 +74,7 @@ class StandInCrazyswarm::Wire {
 
   void listen(std::size_t i) {
     inputs_.push_back(node_.subscribe<crazyswarm::VelocityWorld>(
-        "/" + names_[i] + "/cmd_velocity_world", 1,
+        "/" + names_[i] + "/cmd_velocity_world", kSetpointsThatWait,
         [this, i](const boost::shared_ptr<crazyswarm::VelocityWorld const>& message) { take(i, *message); },
         ros::VoidConstPtr(), ros::TransportHints().tcpNoDelay()));
     serve<crazyswarm::TakeoffRequest>(i, "takeoff", [](Told& told) { told.take_off = true; });
@@ -109,10 +112,12 @@ class StandInCrazyswarm::Wire {
     const std::lock_guard<std::mutex> lock(mutex_);
     Drone& mine = drones_[drone];
     const double now_s = ros::Time::now().toSec();
-    // A stream that was ended by a landing begins anew. By the sender's stamps: how late it is read here is another
-    // matter.
     const double sent_s = message.header.stamp.toSec();
-    if (mine.last_s > 0.0) mine.told.longest_silence_s = std::max(mine.told.longest_silence_s, sent_s - mine.sent_s);
+    // A stream that was ended by a landing begins anew.
+    if (mine.last_s > 0.0) {
+      mine.told.longest_pause_s = std::max(mine.told.longest_pause_s, sent_s - mine.sent_s);
+      mine.told.longest_silence_s = std::max(mine.told.longest_silence_s, now_s - mine.last_s);
+    }
     mine.last_s = now_s;
     mine.sent_s = sent_s;
     ++mine.told.setpoints;

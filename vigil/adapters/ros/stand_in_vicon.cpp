@@ -10,6 +10,7 @@
 
 #include "vigil/adapters/ros/laboratory_link.hpp"
 #include "vigil/adapters/ros/ros_name.hpp"
+#include "vigil/runtime/thread_priority.hpp"
 
 namespace vigil::ros_bridge {
 namespace {
@@ -30,7 +31,7 @@ class StandInVicon::Wire {
       subjects_[ros_name(id)] = node_.advertise<geometry_msgs::TransformStamped>(vicon_topic(id), 10);
     bodies_ = node_.subscribe("/laboratory/bodies", 1, &Wire::see, this, ros::TransportHints().tcpNoDelay());
     faults_ = node_.subscribe("/laboratory/fault", 10, &Wire::spoil, this);
-    spinner_.start();
+    runtime::start_with_real_time_priority([this] { spinner_.start(); });
   }
 
   ~Wire() {
