@@ -5,6 +5,7 @@
 #include <condition_variable>
 #include <deque>
 #include <mutex>
+#include <optional>
 #include <thread>
 #include <utility>
 
@@ -25,7 +26,7 @@ using Clock = std::chrono::steady_clock;
 using namespace std::chrono_literals;
 
 constexpr auto kStreamEvery = 20ms;
-constexpr std::size_t kMostCalls = 256;
+constexpr std::size_t kMostErrands = 256;
 
 std::string without_slash(const std::string& frame) { return frame.rfind('/', 0) == 0 ? frame.substr(1) : frame; }
 
@@ -67,9 +68,9 @@ class CrazyswarmLink final : public CrazyswarmPort {
     for (const std::string& id : setup_.drones)
       velocities_.push_back(node_.advertise<crazyswarm::VelocityWorld>(ros_name(id) + "/cmd_velocity_world", 1));
     listen();
-    spinner_.start();
+    runtime::start_with_real_time_priority([this] { spinner_.start(); });
     streamer_ = std::thread([this] { stream(); });
-    caller_ = std::thread([this] { make_calls(); });
+    caller_ = std::thread([this] { run_errands(); });
   }
 
   ~CrazyswarmLink() override {
@@ -102,19 +103,34 @@ class CrazyswarmLink final : public CrazyswarmPort {
   }
 
   [[nodiscard]] bool call(std::size_t drone, VehicleCall call) noexcept override {
+    return queue({drone, call, drone}, call == VehicleCall::kEmergency);
+  }
+
+  [[nodiscard]] bool tell_mistaken(std::size_t drone, std::size_t other) noexcept override {
+    return queue({drone, std::nullopt, other}, false);
+  }
+
+ private:
+  /// For the caller's thread, which may wait.
+  struct Errand {
+    std::size_t drone = 0;
+    std::optional<VehicleCall> call;  ///< otherwise operators are told for whom the drone is taken
+    std::size_t mistaken_for = 0;
+  };
+
+  [[nodiscard]] bool queue(const Errand& errand, bool is_urgent) noexcept {
     {
-      const std::unique_lock<std::mutex> lock(calls_mutex_, std::try_to_lock);
-      if (!lock.owns_lock() || calls_.size() >= kMostCalls) return false;
-      if (call == VehicleCall::kEmergency)
-        calls_.emplace_front(drone, call);
+      const std::unique_lock<std::mutex> lock(errands_mutex_, std::try_to_lock);
+      if (!lock.owns_lock() || errands_.size() >= kMostErrands) return false;
+      if (is_urgent)
+        errands_.push_front(errand);
       else
-        calls_.emplace_back(drone, call);
+        errands_.push_back(errand);
     }
     wake_caller_.notify_one();
     return true;
   }
 
- private:
   void listen() {
     const ros::TransportHints at_once = ros::TransportHints().tcpNoDelay();
     if (setup_.positions_by_tf) {
@@ -173,16 +189,24 @@ class CrazyswarmLink final : public CrazyswarmPort {
     }
   }
 
-  void make_calls() {
+  void run_errands() {
     while (!is_over_) {
-      std::unique_lock<std::mutex> lock(calls_mutex_);
-      wake_caller_.wait_for(lock, 100ms, [this] { return !calls_.empty() || is_over_; });
-      if (calls_.empty() || is_over_) continue;
-      const auto [drone, call] = calls_.front();
-      calls_.pop_front();
+      std::unique_lock<std::mutex> lock(errands_mutex_);
+      wake_caller_.wait_for(lock, 100ms, [this] { return !errands_.empty() || is_over_; });
+      if (errands_.empty() || is_over_) continue;
+      const Errand errand = errands_.front();
+      errands_.pop_front();
       lock.unlock();
-      make(setup_.drones[drone], call);
+      run(errand);
     }
+  }
+
+  void run(const Errand& errand) {
+    const std::string& id = setup_.drones[errand.drone];
+    if (errand.call) return make(id, *errand.call);
+    setup_.tell(id + " and " + setup_.drones[errand.mistaken_for] +
+                ": the tracker takes one for the other; who was mistaken hovers until it is seen in its own place, and "
+                "lands after five seconds");
   }
 
   void make(const std::string& id, VehicleCall call) {
@@ -244,9 +268,9 @@ class CrazyswarmLink final : public CrazyswarmPort {
   std::vector<std::atomic<bool>> connected_;
   std::thread streamer_;
 
-  std::mutex calls_mutex_;
+  std::mutex errands_mutex_;
   std::condition_variable wake_caller_;
-  std::deque<std::pair<std::size_t, VehicleCall>> calls_;
+  std::deque<Errand> errands_;
   std::thread caller_;
 };
 

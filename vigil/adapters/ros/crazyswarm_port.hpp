@@ -41,6 +41,9 @@ class CrazyswarmPort {
   /// Asks for a service of the drone; false where it could not be asked now.
   [[nodiscard]] virtual bool call(std::size_t drone, VehicleCall call) noexcept = 0;
 
+  /// Tells operators that the tracker takes one of two drones for the other; false where it could not be passed on now.
+  [[nodiscard]] virtual bool tell_mistaken(std::size_t drone, std::size_t other) noexcept = 0;
+
   static constexpr double kStandsForS = 0.25;
 };
 

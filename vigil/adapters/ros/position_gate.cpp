@@ -7,6 +7,7 @@ namespace vigil::ros_bridge {
 namespace {
 
 constexpr double kSmoothingS = 0.05;
+constexpr double kFliesOnS = 0.1;  ///< for so long a drone that is not seen is expected to keep its velocity
 
 bool is_finite(const Point& p) { return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z); }
 
@@ -28,7 +29,19 @@ double PositionGate::age_s(double now_s) const {
   return has_seen_ ? std::max(0.0, now_s - measured_s_) : swarm::DroneObservation::kNever;
 }
 
-PositionGate::Verdict PositionGate::look(const Sighting& sighting, bool flies) {
+bool PositionGate::is_timely(const Sighting& sighting) const {
+  return sighting.number > 0 && is_finite(sighting.place) &&
+         sighting.received_s - sane_stamp(sighting) <= parameters_.late_s;
+}
+
+Point PositionGate::expected(const Sighting& sighting) const {
+  const double unseen_s = std::clamp(sane_stamp(sighting) - measured_s_, 0.0, kFliesOnS);
+  const double speed_m_s = std::hypot(velocity_.x, velocity_.y, velocity_.z);
+  const double ahead_s = unseen_s * parameters_.reach_m_s / std::max(speed_m_s, parameters_.reach_m_s);
+  return {place_.x + ahead_s * velocity_.x, place_.y + ahead_s * velocity_.y, place_.z + ahead_s * velocity_.z};
+}
+
+PositionGate::Verdict PositionGate::look(const Sighting& sighting, bool flies, bool is_anothers) {
   if (sighting.number == number_) return Verdict::kNothingNew;
   const bool is_first = number_ == 0;
   number_ = sighting.number;
@@ -38,14 +51,15 @@ PositionGate::Verdict PositionGate::look(const Sighting& sighting, bool flies) {
     changed_s_ = sighting.received_s;
   }
   const double measured_s = sane_stamp(sighting);
-  const Verdict verdict = judge(sighting, measured_s, flies);
+  const Verdict verdict = judge(sighting, measured_s, flies, is_anothers);
   if (verdict == Verdict::kBelieved) believe(sighting.place, measured_s);
   return verdict;
 }
 
-PositionGate::Verdict PositionGate::judge(const Sighting& sighting, double measured_s, bool flies) {
+PositionGate::Verdict PositionGate::judge(const Sighting& sighting, double measured_s, bool flies, bool is_anothers) {
   if (sighting.received_s - measured_s > parameters_.late_s) return Verdict::kLate;
   if (sighting.received_s - changed_s_ > parameters_.frozen_s) return Verdict::kFrozen;
+  if (is_anothers) return Verdict::kAnothers;
   if (!has_seen_) return Verdict::kBelieved;
   const double unseen_s = std::clamp(measured_s - measured_s_, 0.0, parameters_.most_reach_s);
   if (distance(sighting.place, place_) <= parameters_.slack_m + parameters_.reach_m_s * unseen_s) {

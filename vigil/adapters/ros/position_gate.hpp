@@ -18,25 +18,29 @@ struct GateParameters {
 };
 
 /// Which of a tracker's positions are believed. One that is late, repeated to the last bit, not a number, or farther
-/// from the last believed one than the drone can have flown, is as good as none: what is known only grows older. Two
-/// bodies that swap their names jump, both of them, unless they are closer together than the slack. One thread.
+/// from the last believed one than the drone can have flown, is as good as none: what is known only grows older. So is
+/// one that is known to be of another drone's body (MistakenBodies), however near. One thread.
 class PositionGate {
  public:
-  enum class Verdict : std::uint8_t { kNothingNew, kBelieved, kLate, kFrozen, kJumped, kNotANumber };
+  enum class Verdict : std::uint8_t { kNothingNew, kBelieved, kLate, kFrozen, kAnothers, kJumped, kNotANumber };
 
   explicit PositionGate(const GateParameters& parameters) : parameters_(parameters) {}
 
-  /// `flies`: it follows setpoints, or climbs to where it will.
-  Verdict look(const Sighting& sighting, bool flies);
+  /// `flies`: it follows setpoints, or climbs to where it will. `is_anothers`: the position is of another drone's body.
+  Verdict look(const Sighting& sighting, bool flies, bool is_anothers = false);
 
   [[nodiscard]] bool has_seen() const { return has_seen_; }
   [[nodiscard]] const Point& place() const { return place_; }        ///< last believed
   [[nodiscard]] const Point& velocity() const { return velocity_; }  ///< by differences, smoothed over 50 ms
+  /// Whether a position took no longer than those that are used may.
+  [[nodiscard]] bool is_timely(const Sighting& sighting) const;
+  /// Where the drone is expected when `sighting` was measured: at the last believed place, or a little further along.
+  [[nodiscard]] Point expected(const Sighting& sighting) const;
   /// Since the place was true; swarm::DroneObservation::kNever before the first.
   [[nodiscard]] double age_s(double now_s) const;
 
  private:
-  [[nodiscard]] Verdict judge(const Sighting& sighting, double measured_s, bool flies);
+  [[nodiscard]] Verdict judge(const Sighting& sighting, double measured_s, bool flies, bool is_anothers);
   [[nodiscard]] bool is_settled(const Sighting& sighting);
   void believe(const Point& place, double measured_s);
 

@@ -36,16 +36,46 @@ RosFleet::RosFleet(const runtime::Mission& mission, std::unique_ptr<CrazyswarmPo
       altitude_m_(mission.simulation.vehicle.altitude_m),
       port_(std::move(port)),
       drones_(mission.drones.size(),
-              Drone{PositionGate(gate_parameters(mission)), FlightPhase(phase_parameters(mission))}) {}
+              Drone{PositionGate(gate_parameters(mission)), FlightPhase(phase_parameters(mission))}),
+      bodies_(mission.drones.size()),
+      mistaken_(mission.drones.size()) {}
 
 void RosFleet::observe(runtime::MissionTime /*now*/, std::span<swarm::DroneObservation> out) noexcept {
   const double now_s = port_->now_s();
+  look(now_s);
   for (std::size_t i = 0; i < drones_.size(); ++i) observe(i, now_s, out[i]);
+}
+
+/// Names first, of all drones at once; then each position by itself.
+void RosFleet::look(double now_s) noexcept {
+  for (std::size_t i = 0; i < drones_.size(); ++i) {
+    Drone& drone = drones_[i];
+    drone.newest = port_->newest(i);
+    bodies_[i] = {.is_known = drone.gate.has_seen(),
+                  .is_timely = drone.gate.is_timely(drone.newest),
+                  .is_airborne = drone.phase.is_airborne(),
+                  .unseen_s = drone.gate.age_s(now_s),
+                  .expected = drone.gate.expected(drone.newest),
+                  .seen = drone.newest.place};
+  }
+  mistaken_.judge(bodies_);
+  tell_of_the_mistaken();
+  for (std::size_t i = 0; i < drones_.size(); ++i)
+    drones_[i].gate.look(drones_[i].newest, drones_[i].phase.flies(), mistaken_.taken_for(i).has_value());
+}
+
+/// Once for two that are taken for each other.
+void RosFleet::tell_of_the_mistaken() noexcept {
+  for (std::size_t i = 0; i < drones_.size(); ++i) {
+    const std::optional<std::size_t> other = mistaken_.taken_for(i);
+    if (other == drones_[i].told_of) continue;
+    const bool is_told = !other || drones_[*other].told_of == i || port_->tell_mistaken(i, *other);
+    if (is_told) drones_[i].told_of = other;
+  }
 }
 
 void RosFleet::observe(std::size_t index, double now_s, swarm::DroneObservation& out) noexcept {
   Drone& drone = drones_[index];
-  drone.gate.look(port_->newest(index), drone.phase.flies());
   if (port_->is_connected(index)) drone.heard_s = now_s;
   const Point& place = drone.gate.place();
   const Point& velocity = drone.gate.velocity();
@@ -69,14 +99,15 @@ void RosFleet::order(std::size_t index, double now_s, const swarm::DroneOrder& o
   Drone& drone = drones_[index];
   const std::optional<VehicleCall> call = drone.phase.call_for(order.action, drone.gate.age_s(now_s), now_s);
   if (call && port_->call(index, *call)) drone.phase.called(*call, now_s);
-  port_->set(index, setpoint(drone, now_s, order));
+  port_->set(index, setpoint(index, now_s, order));
 }
 
 /// A drone that flies always has one: what is ordered, or a hover.
-Setpoint RosFleet::setpoint(const Drone& drone, double now_s, const swarm::DroneOrder& order) const noexcept {
+Setpoint RosFleet::setpoint(std::size_t index, double now_s, const swarm::DroneOrder& order) const noexcept {
+  const Drone& drone = drones_[index];
   if (drone.phase.mode() != VehicleMode::kFlying) return {};
   Setpoint setpoint{true, {}};
-  if (drone.gate.age_s(now_s) > kFreshS) return setpoint;
+  if (drone.gate.age_s(now_s) > kFreshS || mistaken_.taken_for(index)) return setpoint;
   setpoint.velocity_m_s.z =
       std::clamp(kHeightGainPerS * (altitude_m_ - drone.gate.place().z), -kClimbLimit, kClimbLimit);
   if (order.action != swarm::Action::kVelocity) return setpoint;
