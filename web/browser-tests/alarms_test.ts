@@ -1,44 +1,21 @@
-import type { Browser, Page } from 'playwright-core';
-import { afterAll, afterEach, beforeAll, beforeEach, describe, expect, it } from 'vitest';
-import { openBrowser, openView, type View } from './chromium';
+import { beforeEach, describe, expect, it } from 'vitest';
 import { FakeProgram } from './fake_program';
-import { servePage } from './page_server';
+import { usePlayedPage } from './played_page';
 
 /** LAND ALL and the emergency stop, wherever the focus is. */
 
-let browser: Browser;
-let site: Awaited<ReturnType<typeof servePage>>;
-let view: View;
-let page: Page;
+const played = usePlayedPage();
 let program: FakeProgram;
-let steps: NodeJS.Timeout | undefined;
 
-beforeAll(async () => {
-  [browser, site] = [await openBrowser(), await servePage()];
-});
-afterAll(async () => {
-  await browser.close();
-  await site.close();
-});
 beforeEach(async () => {
-  view = await openView(browser);
-  page = view.page;
   program = new FakeProgram(3, [3, 3]);
-  await program.attach(page);
-  steps = setInterval(() => program.step(), 50);
-  await page.goto(site.address);
-  await page.getByTestId('badge').getByText('SIM').waitFor();
+  await played.begin(program);
   program.sayTargets();
-  await page.getByTestId('area-east').click();
-});
-afterEach(async () => {
-  clearInterval(steps);
-  expect(view.complaints).toEqual([]);
-  await view.context.close();
+  await played.page.getByTestId('area-east').click();
 });
 
 const sent = (type: string): number => program.received.filter((message) => message['type'] === type).length;
-const field = (name: string) => page.getByRole('textbox', { name, exact: true });
+const field = (name: string) => played.page.getByRole('textbox', { name, exact: true });
 /** The keys of an alarm in quick succession, as a hand presses them: one call, whatever else the machine does. */
 const pressDotTwice = (name: string) =>
   field(name).evaluate((input: HTMLInputElement) => {
@@ -52,12 +29,12 @@ const pressDotTwice = (name: string) =>
 
 describe('keys while a field has the focus', () => {
   it('Enter takes a number and leaves its field; the next Enter commits', async () => {
-    await page.keyboard.press('e');
-    await page.keyboard.press('Tab');
-    await page.keyboard.type('4');
-    await page.keyboard.press('Enter');
-    await page.getByRole('region', { name: 'Staged edits' }).waitFor();
-    await page.keyboard.press('Enter');
+    await played.page.keyboard.press('e');
+    await played.page.keyboard.press('Tab');
+    await played.page.keyboard.type('4');
+    await played.page.keyboard.press('Enter');
+    await played.page.getByRole('region', { name: 'Staged edits' }).waitFor();
+    await played.page.keyboard.press('Enter');
     await expect.poll(() => sent('edit')).toBe(1);
   });
 
@@ -72,14 +49,14 @@ describe('keys while a field has the focus', () => {
       expect(await field(name).inputValue()).toBe(was);
       expect(await field(name).evaluate((input) => document.activeElement === input)).toBe(false);
     }
-    expect(await page.getByRole('region', { name: 'Staged edits' }).count()).toBe(0);
-    await page.keyboard.press('Escape');
+    expect(await played.page.getByRole('region', { name: 'Staged edits' }).count()).toBe(0);
+    await played.page.keyboard.press('Escape');
     await field('Weight').waitFor({ state: 'detached' });
   });
 
   it('Shift+L in a number lands all', async () => {
     await field('Weight').focus();
-    await page.keyboard.press('Shift+L');
+    await played.page.keyboard.press('Shift+L');
     await expect.poll(() => sent('land_all')).toBe(1);
     expect(await field('Weight').inputValue()).toBe('2');
   });
@@ -93,19 +70,19 @@ describe('keys while a field has the focus', () => {
 
   it('Decimals typed fast stop nothing', async () => {
     await field('Weight').focus();
-    await page.keyboard.type('0.5.');
-    await page.keyboard.press('Tab');
-    await page.keyboard.type('1.5');
-    await page.keyboard.press('Escape');
-    await page.keyboard.press('Escape');
+    await played.page.keyboard.type('0.5.');
+    await played.page.keyboard.press('Tab');
+    await played.page.keyboard.type('1.5');
+    await played.page.keyboard.press('Escape');
+    await played.page.keyboard.press('Escape');
     expect(sent('emergency_stop')).toBe(0);
   });
 
   it('In a name both are text, and two dots are answered with what to do', async () => {
     await field('Name').focus();
-    await page.keyboard.press('Shift+L');
+    await played.page.keyboard.press('Shift+L');
     await pressDotTwice('Name');
-    await page.getByText(/No emergency stop: the keys went into the field/).waitFor();
+    await played.page.getByText(/No emergency stop: the keys went into the field/).waitFor();
     expect(await field('Name').inputValue()).toMatch(/L\.\.$/);
     expect(sent('land_all') + sent('emergency_stop')).toBe(0);
   });

@@ -11,6 +11,10 @@ export class FakeProgram {
   private tick = 0;
   /** Takes connections but says nothing. */
   isMute = false;
+  missionName = 'played';
+  idOf = (drone: number): string => `d${drone + 1}`;
+  /** Of the field, in the world, m. */
+  origin: readonly [number, number] = [0, 0];
   greetings = 0;
   drones: DroneState[];
   holding: Holding[] = [];
@@ -133,6 +137,17 @@ export class FakeProgram {
     });
   }
 
+  /** An order of an operator to all drones, as the program tells it to everybody. */
+  sayDeed(number: number, by: string, what: string): void {
+    const severity = what === 'emergency_stop' ? 'alarm' : 'info';
+    const said = { text: `${by}: ${what} all`, effect: '', next: '' };
+    const when = { number, tick: number, time_s: 0, wall_ms: 0 };
+    this.say({
+      type: 'events',
+      events: [{ ...when, ...said, severity, source: 'operator', what, drone: 'all', was: '', by }],
+    });
+  }
+
   private emptyTargets(): Record<string, unknown> {
     return {
       type: 'targets',
@@ -168,9 +183,9 @@ export class FakeProgram {
       type: 'mission',
       epoch: 1,
       fleet: 'SIM',
-      mission: { name: 'played', drones: this.drones.map((_, i) => ({ id: `d${i + 1}` })) },
+      mission: { name: this.missionName, drones: this.drones.map((_, i) => ({ id: this.idOf(i) })) },
       display: {
-        field: { length_x_m: x, length_y_m: y, origin_m: [0, 0], yaw_rad: 0 },
+        field: { length_x_m: x, length_y_m: y, origin_m: this.origin, yaw_rad: 0 },
         dt_s: 0.02,
         separation_m: 0.2,
         contact_distance_m: 0.1,

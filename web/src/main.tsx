@@ -3,6 +3,7 @@ import { render } from 'preact';
 import './look/colours.css';
 import './look/layout.css';
 import './look/controls.css';
+import './look/top_bar.css';
 import './look/panels.css';
 import './look/overlays.css';
 import './look/foresight.css';

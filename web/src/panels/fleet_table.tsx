@@ -1,21 +1,15 @@
 import { useSignal } from '@preact/signals';
 import { useEffect, useRef } from 'preact/hooks';
 import type { HoldingRow, Snapshot } from '../link/frames';
+import type { FieldFrame } from '../model/field_frame';
+import type { Point } from '../model/geometry';
 import { activityOf, batteryOf, firstHolders, holderName, secondsOf, speedOf } from '../model/drones';
 import { age, coordinate, metres, percent } from '../model/units';
 import { useApp } from './app_context';
 import { Icon, type IconName } from './icons';
 
 const kSeverityIcons: Record<string, IconName> = { ok: 'ok', info: 'info', warning: 'warning', alarm: 'alarm' };
-const kColumns = [
-  ['id', '14%'],
-  ['state', '23%'],
-  ['x, y (m)', '20%'],
-  ['batt.', '9%'],
-  ['link', '11%'],
-  ['m/s', '9%'],
-  ['held by', '14%'],
-] as const;
+const kColumns = ['id', 'state', 'x, y (m)', 'batt.', 'link', 'm/s', 'held by'] as const;
 
 const kFilters = { all: 'all', away: 'not active', held: 'held back', selected: 'selected' } as const;
 type Filter = keyof typeof kFilters;
@@ -34,6 +28,39 @@ function chosen(
     selected: (drone) => selected.has(drone),
   };
   return Array.from({ length: snapshot.n }, (_, drone) => drone).filter(lets[filter]);
+}
+
+/** A tenth of what the inspector shows: rows are read at a glance. */
+const inTable = (place: Point, field: FieldFrame): string[] =>
+  place.map((value) => coordinate(value, 10 * Math.max(...field.size)));
+
+/** How many letters the widest coordinate and the longest id have: columns are as wide as that, within limits. */
+function widths(field: FieldFrame | null, ids: readonly string[]): Record<string, string> {
+  const [x, y] = field?.size ?? [1, 1];
+  const corners: Point[] = [[0, 0], [x, 0], [0, y], [x, y]]; // prettier-ignore
+  const letters = corners
+    .flatMap((corner) => (field ? inTable(field.toWorld(corner), field) : []))
+    .map((t) => t.length);
+  const one = Math.min(11, Math.max(4, ...letters));
+  const id = ids.reduce((most, name) => Math.max(most, name.length), 0);
+  // Where a line has no room for both coordinates they stand one over the other.
+  return {
+    '--one-place': `${one + 1}ch`,
+    '--place': `${one <= 5 ? 2 * one + 2 : one + 1}ch`,
+    '--id': `${Math.min(id, 40)}ch`,
+  };
+}
+
+/** A name that is cut in its middle where there is no room: names of a fleet differ at their ends. */
+function CutName({ name }: { name: string }) {
+  const kKept = 4;
+  if (name.length <= kKept + 2) return <>{name}</>;
+  return (
+    <span class="cut-name">
+      <span>{name.slice(0, -kKept)}</span>
+      <span>{name.slice(-kKept)}</span>
+    </span>
+  );
 }
 
 /** Every drone as a row; only the rows in view are in the page, however many drones there are. */
@@ -85,15 +112,15 @@ export function FleetTable() {
         aria-label="Fleet table"
         onScroll={(event) => (scroll.value = event.currentTarget.scrollTop)}
       >
-        <table aria-rowcount={drones.length + 1}>
+        <table aria-rowcount={drones.length + 1} style={widths(session.field.value, session.droneIds.value)}>
           <colgroup>
-            {kColumns.map(([name, width]) => (
-              <col key={name} style={{ width }} />
+            {kColumns.map((name) => (
+              <col key={name} class={`col-${name.slice(0, 1)}`} />
             ))}
           </colgroup>
           <thead>
             <tr>
-              {kColumns.map(([name]) => (
+              {kColumns.map((name) => (
                 <th key={name} scope="col">
                   {name}
                 </th>
@@ -148,7 +175,7 @@ function Row({ drone, index, snapshot, held }: RowProps) {
   const activity = activityOf(snapshot, drone);
   const isSelected = editor.selectedDrones.value.has(drone);
   const place = field?.toWorld([snapshot.position[2 * drone]!, snapshot.position[2 * drone + 1]!]);
-  const extent = Math.max(...(field?.size ?? [1, 1])) * 10;
+  const where = place && field && !Number.isNaN(place[0]) ? inTable(place, field) : ['–'];
   const battery = batteryOf(snapshot, drone);
   const linkAge = secondsOf(snapshot.linkAge[drone]!);
   const choose = (event: MouseEvent): void => {
@@ -161,13 +188,15 @@ function Row({ drone, index, snapshot, held }: RowProps) {
       <td>
         <button
           type="button"
+          aria-label={id}
+          title={id}
           aria-pressed={isSelected}
           onClick={(event) => {
             event.stopPropagation();
             choose(event);
           }}
         >
-          {id}
+          <CutName name={id} />
         </button>
       </td>
       <td title={activity.why}>
@@ -176,8 +205,9 @@ function Row({ drone, index, snapshot, held }: RowProps) {
           {activity.label}
         </span>
       </td>
-      <td>
-        {place && !Number.isNaN(place[0]) ? `${coordinate(place[0], extent)}, ${coordinate(place[1], extent)}` : '–'}
+      <td class="place">
+        <span>{where.slice(0, -1).map((x) => `${x}, `)}</span>
+        <span>{where.slice(-1)}</span>
       </td>
       <td class={battery < 0.25 ? 'alarm' : ''}>{percent(battery)}</td>
       <td class={linkAge > 0.5 ? 'alarm' : ''}>{age(linkAge)}</td>
@@ -186,7 +216,7 @@ function Row({ drone, index, snapshot, held }: RowProps) {
         class={holder ? 'warning' : 'dim'}
         title={holder ? `held by ${holder}, ${metres(held.distanceM)}` : 'nothing holds it'}
       >
-        {holder ?? '–'}
+        {holder ? <CutName name={holder} /> : '–'}
       </td>
     </tr>
   );

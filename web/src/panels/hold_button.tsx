@@ -11,17 +11,24 @@ interface Props {
   readonly disabled: boolean;
   readonly title: string;
   readonly onConfirmed: () => void;
+  /** It was let go too early. */
+  readonly onLetGo: () => void;
   readonly children: ComponentChildren;
 }
 
 /** A button that acts only when it is held for a second, with pointer, Space or Enter. */
-export function HoldButton({ label, isArmed, disabled, title, onConfirmed, children }: Props) {
+export function HoldButton({ label, isArmed, disabled, title, onConfirmed, onLetGo, children }: Props) {
   const [isHeld, setHeld] = useState(false);
   const timer = useRef(0);
   const release = (): void => {
     window.clearTimeout(timer.current);
     timer.current = 0;
     setHeld(false);
+  };
+  const letGo = (): void => {
+    const wasHeld = timer.current !== 0;
+    release();
+    if (wasHeld) onLetGo();
   };
   const hold = (): void => {
     if (disabled || timer.current !== 0) return;
@@ -41,10 +48,10 @@ export function HoldButton({ label, isArmed, disabled, title, onConfirmed, child
       aria-label={label}
       title={title}
       onPointerDown={hold}
-      onPointerUp={release}
-      onPointerLeave={release}
-      onPointerCancel={release}
-      onBlur={release}
+      onPointerUp={letGo}
+      onPointerLeave={letGo}
+      onPointerCancel={letGo}
+      onBlur={letGo}
       onContextMenu={(event) => event.preventDefault()}
       onKeyDown={(event) => {
         if (!isPress(event)) return;
@@ -52,7 +59,7 @@ export function HoldButton({ label, isArmed, disabled, title, onConfirmed, child
         event.stopPropagation();
         hold();
       }}
-      onKeyUp={(event) => isPress(event) && release()}
+      onKeyUp={(event) => isPress(event) && letGo()}
     >
       <span class="fill" />
       {children}

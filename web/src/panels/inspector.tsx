@@ -35,6 +35,11 @@ export function Orders() {
     <section aria-label={`Orders for ${who}`}>
       <p class="pad" style={{ margin: '8px 0 0', paddingBottom: 0 }}>
         <span class="dim">Orders for</span> <strong>{who}</strong>
+        {selected.length === 0 && (
+          <span class="dim" data-testid="keys-want-selection">
+            ; keys order selected ones only
+          </span>
+        )}
       </p>
       <div class="orders" style={{ borderTop: 0 }}>
         {kOrders.map((order) => (
@@ -157,6 +162,7 @@ function StopOne({ id }: { id: string }) {
       title={`Motors off, only ${id}: hold for one second`}
       disabled={!session.mayStopMotors.value}
       onConfirmed={() => orders.emergencyStop([id])}
+      onLetGo={() => orders.stopLetGo('until it is filled')}
     >
       <span>Stop motors of {id} (hold)</span>
     </HoldButton>

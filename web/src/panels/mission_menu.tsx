@@ -36,9 +36,16 @@ export function MissionMenu() {
   };
   return (
     <div class="popover" ref={root}>
-      <button type="button" class="quiet" aria-expanded={isOpen} onClick={() => setOpen(!isOpen)}>
+      <button
+        type="button"
+        class="quiet"
+        aria-label="Mission"
+        title="Mission"
+        aria-expanded={isOpen}
+        onClick={() => setOpen(!isOpen)}
+      >
         <Icon name="file" />
-        Mission
+        <span class="label">Mission</span>
       </button>
       {isOpen && (
         <div class="menu">

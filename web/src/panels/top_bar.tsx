@@ -5,10 +5,12 @@ import { useApp } from './app_context';
 import { HoldButton } from './hold_button';
 import { Icon } from './icons';
 import { MissionMenu } from './mission_menu';
+import { usePopover } from './use_popover';
 import { WhoMenu } from './who_menu';
 
 export function TopBar() {
-  const { session, orders, isHelpOpen, isLogOpen, settings, isStopArmed } = useApp();
+  const { session, orders, isStopArmed } = useApp();
+  const choices = useChoices();
   return (
     <header class="top">
       <h1 class="unseen">vigil, operator’s console</h1>
@@ -18,26 +20,15 @@ export function TopBar() {
       <span class="space" />
       <div class="group">
         <MissionMenu />
-        <IconButton
-          icon="log"
-          label="Event log"
-          pressed={isLogOpen.value}
-          act={() => (isLogOpen.value = !isLogOpen.value)}
-        />
-        <IconButton
-          icon={settings.isMuted.value ? 'mute' : 'sound'}
-          label={settings.isMuted.value ? 'Sound the alarms' : 'Mute the alarms'}
-          act={() => (settings.isMuted.value = !settings.isMuted.value)}
-        />
-        <IconButton
-          icon={settings.theme.value === 'dark' ? 'sun' : 'moon'}
-          label={settings.theme.value === 'dark' ? 'Light theme' : 'Dark theme'}
-          act={() => (settings.theme.value = settings.theme.value === 'dark' ? 'light' : 'dark')}
-        />
-        <IconButton icon="help" label="Help and keys" act={() => (isHelpOpen.value = true)} />
+        <div class="group when-wide">
+          {choices.map(({ icon, label, pressed, act }) => (
+            <IconButton key={label} icon={icon} label={label} pressed={pressed} act={act} />
+          ))}
+        </div>
+        <MoreMenu choices={choices} />
         <WhoMenu />
       </div>
-      <div class="group">
+      <div class="group alarms">
         <button
           type="button"
           class="land-all"
@@ -54,6 +45,7 @@ export function TopBar() {
           disabled={!session.mayStopMotors.value}
           isArmed={isStopArmed.value}
           onConfirmed={() => orders.emergencyStop('all')}
+          onLetGo={() => orders.stopLetGo('or press . twice within 0.8 s')}
         >
           <span>EMERGENCY STOP</span>
         </HoldButton>
@@ -62,14 +54,68 @@ export function TopBar() {
   );
 }
 
-interface IconButtonProps {
+interface Choice {
   readonly icon: Parameters<typeof Icon>[0]['name'];
   readonly label: string;
-  readonly pressed?: boolean;
+  readonly pressed?: boolean | undefined;
   readonly act: () => void;
 }
 
-function IconButton({ icon, label, pressed, act }: IconButtonProps) {
+/** What is there as buttons where the window is wide, and as a menu where it is not. */
+function useChoices(): readonly Choice[] {
+  const { isHelpOpen, isLogOpen, settings } = useApp();
+  const isDark = settings.theme.value === 'dark';
+  const isMuted = settings.isMuted.value;
+  return [
+    {
+      icon: 'log',
+      label: 'Event log',
+      pressed: isLogOpen.value,
+      act: () => (isLogOpen.value = !isLogOpen.value),
+    },
+    {
+      icon: isMuted ? 'mute' : 'sound',
+      label: isMuted ? 'Sound the alarms' : 'Mute the alarms',
+      act: () => (settings.isMuted.value = !isMuted),
+    },
+    {
+      icon: isDark ? 'sun' : 'moon',
+      label: isDark ? 'Light theme' : 'Dark theme',
+      act: () => (settings.theme.value = isDark ? 'light' : 'dark'),
+    },
+    { icon: 'help', label: 'Help and keys', act: () => (isHelpOpen.value = true) },
+  ];
+}
+
+function MoreMenu({ choices }: { choices: readonly Choice[] }) {
+  const { isOpen, setOpen, root } = usePopover();
+  return (
+    <div class="popover when-narrow" ref={root}>
+      <button
+        type="button"
+        class="quiet"
+        aria-label="More"
+        title="More"
+        aria-expanded={isOpen}
+        onClick={() => setOpen(!isOpen)}
+      >
+        ⋯
+      </button>
+      {isOpen && (
+        <div class="menu">
+          {choices.map(({ icon, label, act }) => (
+            <button key={label} type="button" onClick={() => (setOpen(false), act())}>
+              <Icon name={icon} />
+              {label}
+            </button>
+          ))}
+        </div>
+      )}
+    </div>
+  );
+}
+
+function IconButton({ icon, label, pressed, act }: Choice) {
   return (
     <button type="button" class="quiet" aria-label={label} title={label} aria-pressed={pressed} onClick={act}>
       <Icon name={icon} />
@@ -82,13 +128,13 @@ function WhatFlies() {
   const mission = session.mission.value;
   const isLive = session.isLive.value;
   return (
-    <div class="group">
+    <div class="group flies">
       <span class={`badge ${isLive ? 'is-fresh ok' : 'alarm'}`} data-testid="badge">
         <span class="dot" />
         {isLive ? (mission?.fleet ?? '…') : 'STALE'}
       </span>
       <div class="brand">
-        <strong>{mission?.mission.name ?? 'vigil'}</strong>
+        <strong title={mission?.mission.name}>{mission?.mission.name ?? 'vigil'}</strong>
         <span>{mission ? `${mission.mission.drones.length} drones` : 'connecting'}</span>
       </div>
     </div>

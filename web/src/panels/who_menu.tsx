@@ -23,7 +23,7 @@ export function WhoMenu() {
       >
         <Icon name="person" />
         <span data-testid="who">
-          {hello?.name ?? '–'}
+          <span class="own-name">{hello?.name ?? '–'}</span>
           {others.length > 0 && <span class="ok"> +{others.length}</span>}
         </span>
       </button>

@@ -26,7 +26,11 @@ export class FleetOrders {
   /** To the selected drones; says so when none is. */
   toSelected(order: Order): void {
     const drones = this.selectedIds();
-    if (drones.length === 0) this.session.notify('info', 'Select drones first: a digit, Ctrl+A, the table or the map.');
+    if (drones.length === 0)
+      this.session.notify(
+        'info',
+        'Keys order the selected drones, and none is: take a digit, Ctrl+A, the table or the map.',
+      );
     else this.to(order, drones);
   }
 
@@ -54,6 +58,11 @@ export class FleetOrders {
   emergencyStop(drones: readonly string[] | 'all'): void {
     const who = drones === 'all' ? 'all drones' : drones.join(', ');
     void this.session.command({ type: 'emergency_stop', drones }, `EMERGENCY STOP: motors off, ${who}.`);
+  }
+
+  /** Says that a button was held too shortly to stop motors, and what else there is to do. */
+  stopLetGo(otherwise: string): void {
+    this.session.notify('warning', `No motor was stopped: hold the button for one second, ${otherwise}.`);
   }
 
   /** Whether this console may stop motors now; says why where it may not. */
