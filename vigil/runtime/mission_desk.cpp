@@ -1,5 +1,9 @@
 #include "vigil/runtime/mission_desk.hpp"
 
+#include <array>
+#include <cstdlib>
+#include <string>
+#include <string_view>
 #include <utility>
 
 #include <fmt/format.h>
@@ -33,29 +37,63 @@ std::string in_words(std::span<const TargetEdit> edits) {
   return fmt::format("{} changes: {}, ...", edits.size(), in_words(edits.front()));
 }
 
-/// "targets.areas[1].outline_m of ridge": whoever looks at a map knows names, not numbers.
+/// "outline_m[2]" is corner 3, "revisit_s" the deadline.
+std::string member_in_words(std::string_view member) {
+  struct Word {
+    std::string_view key, whole, one;
+  };
+  constexpr std::array<Word, 5> kWords{{{"points_m", "points", "point"},
+                                        {"outline_m", "outline", "corner"},
+                                        {"soft_edge_m", "soft edge", ""},
+                                        {"revisit_s", "deadline", ""},
+                                        {"uniform_floor", "share that is spread evenly", ""}}};
+  for (const Word& word : kWords) {
+    if (!member.starts_with(word.key)) continue;
+    const std::string_view rest = member.substr(word.key.size());
+    if (!rest.starts_with('[')) return std::string(word.whole);
+    const std::string index(rest.substr(1));
+    return fmt::format("{} {}", word.one, std::strtoul(index.c_str(), nullptr, 10) + 1);
+  }
+  return std::string(member);
+}
+
+/// "area ridge, corner 3" of "targets.areas[1].outline_m[2]": whoever looks at a map knows names, not a file's keys.
 std::string place_in_words(const std::string& key, const Mission& mission) {
-  const auto named = [&](std::string_view list, const auto& entries) -> std::string {
+  const auto named = [&](std::string_view list, std::string_view kind, const auto& entries) -> std::string {
     if (!key.starts_with(list)) return {};
     const std::size_t index = std::strtoul(key.c_str() + list.size(), nullptr, 10);
-    return index < entries.size() ? fmt::format("{} of {}", key, entries[index].name) : std::string();
+    if (index >= entries.size()) return {};
+    const std::size_t dot = key.find('.', list.size());
+    if (dot == std::string::npos) return fmt::format("{} {}", kind, entries[index].name);
+    return fmt::format("{} {}, {}", kind, entries[index].name, member_in_words(std::string_view(key).substr(dot + 1)));
   };
-  for (const std::string& words : {named("targets.clusters[", mission.targets.clusters),
-                                   named("targets.areas[", mission.targets.areas), named("no_fly[", mission.no_fly)})
+  for (const std::string& words :
+       {named("targets.clusters[", "cluster", mission.targets.clusters),
+        named("targets.areas[", "area", mission.targets.areas), named("no_fly[", "no-fly polygon", mission.no_fly)})
     if (!words.empty()) return words;
-  return key;
+  return key.starts_with("targets.") ? member_in_words(std::string_view(key).substr(8)) : key;
+}
+
+/// Without what only the author of a mission file can look up or do.
+std::string for_operators(std::string text) {
+  for (const std::string_view part : {" at field.origin_m", ", or take `outside_field: clamp` in targets"}) {
+    const std::size_t at = text.find(part);
+    if (at != std::string::npos) text.erase(at, part.size());
+  }
+  return text;
 }
 
 std::string reason_of(const MissionFault& fault, const Mission& mission) {
   constexpr std::size_t kMostBytes = 600;
   std::string reason = place_in_words(fault.key, mission);
-  if (!fault.key.empty() && !fault.value.empty()) reason += " = ";
-  reason += fault.value;
+  // A list of points says nothing that the map does not show better.
+  const bool is_shown = !fault.value.empty() && !fault.value.starts_with("[[") && fault.value != "[]";
+  if (is_shown) reason += (reason.empty() ? "" : " = ") + fault.value;
   std::string_view separator = reason.empty() ? "" : ": ";
   for (const std::string* part : {&fault.problem, &fault.valid, &fault.advice}) {
     if (part->empty()) continue;
     reason += separator;
-    reason += *part;
+    reason += for_operators(*part);
     separator = "; ";
   }
   return on_one_line(reason, kMostBytes);

@@ -73,7 +73,7 @@ TEST(MissionDeskTest, The_rules_of_mission_files_hold_with_the_entrys_name) {
     const std::string why = reason(edits);
     EXPECT_NE(why.find(part), std::string::npos) << why;
   };
-  refuses({MovePoint{kEast, 0, {9.0, 9.0}}}, "of east");
+  refuses({MovePoint{kEast, 0, {9.0, 9.0}}}, "cluster east, point 1 = [9, 9]: ");
   refuses({MovePoint{kEast, 0, {9.0, 9.0}}}, "is outside the field");
   refuses({MovePoint{kEast, 0, {0.5, 11.5}}}, "in the no-fly polygon mast");
   refuses({SetWeight{kEast, -1.0}}, "must be in [0, 1000000]");
@@ -84,6 +84,24 @@ TEST(MissionDeskTest, The_rules_of_mission_files_hold_with_the_entrys_name) {
   refuses({RemovePoint{kMast, 0}, RemovePoint{kMast, 0}}, "3 to 1000 points");
   refuses({SetUniformFloor{1.5}}, "must be in [0, 1]");
   refuses({AddEntry{ClusterEntry{"empty", {}, 1.0, {}}}}, "1 to 10000 points");
+}
+
+TEST(MissionDeskTest, Refusals_speak_of_what_is_on_the_map_and_not_of_keys_of_a_file) {
+  const std::vector<std::pair<std::vector<TargetEdit>, std::string>> refusals{
+      {{MovePoint{kEast, 0, {9.0, 9.0}}}, "cluster east, point 1 = [9, 9]: is outside the field"},
+      {{MovePoint{kWest, 0, {0.5, 10.6}}, MovePoint{kWest, 1, {-0.8, 11.0}}}, "area west, outline: crosses"},
+      {{MovePoint{kMast, 1, {1e9, 0.0}}}, "no-fly polygon mast, corner 2"},
+      {{SetWeight{kEast, -1.0}}, "cluster east, weight = -1: must be in [0, 1000000]"},
+      {{SetRevisit{kEast, -3.0}}, "cluster east, deadline = -3: "},
+      {{SetSoftEdge{kWest, -1.0}}, "area west, soft edge = -1: "},
+      {{SetUniformFloor{1.5}}, "share that is spread evenly = 1.5: "},
+  };
+  for (const auto& [edits, beginning] : refusals) {
+    const std::string why = reason(edits);
+    EXPECT_EQ(why.substr(0, beginning.size()), beginning) << why;
+    for (const char* key : {"targets.", "_m", "[0]", "outside_field", "origin"})
+      EXPECT_EQ(why.find(key), std::string::npos) << key << ": " << why;
+  }
 }
 
 TEST(MissionDeskTest, What_is_not_there_is_said_and_nothing_of_the_change_happens) {
