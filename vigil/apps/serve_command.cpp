@@ -134,8 +134,17 @@ bool ticks_may_come_first() {
   return may;
 }
 
-void announce(const std::string& mission, const std::string& url, bool is_restored) {
+/// Tokens and orders that others on the way can read.
+bool is_readable_on_the_way(const ServeOptions& options) {
+  return !options.tokens.empty() && options.certificate.empty() && !console::is_loopback(options.address);
+}
+
+void announce(const ServeOptions& options, const std::string& mission, const std::string& url, bool is_restored) {
   fmt::print("vigil: {} at {}\n", mission, url);
+  if (is_readable_on_the_way(options))
+    fmt::print(
+        "vigil: warning: without TLS whoever is on the way can read the tokens and give orders with them; give "
+        "--certificate and --key, or serve on 127.0.0.1 behind something that encrypts\n");
   if (!ticks_may_come_first())
     fmt::print("vigil: without real-time priority ticks begin late on a busy machine; `ulimit -r 1` would allow it\n");
   if (is_restored) fmt::print("vigil: goes on where it was; drones in the air hold until somebody resumes them\n");
@@ -157,7 +166,7 @@ int run(const ServeOptions& options, const std::string& version) {
   console::ServerOptions served = server_options(options, version);
   if (ros) served.overhear = [&ros](const console::DeskNews& news) { ros->overhear(news); };
   std::string url;
-  served.ready = [&] { announce(mission.name, url, saved.has_value()); };
+  served.ready = [&] { announce(options, mission.name, url, saved.has_value()); };
   console::Server server(
       served,
       [&options, &ros](const runtime::Mission& one, std::uint32_t epoch, const runtime::SavedFlight* of) {

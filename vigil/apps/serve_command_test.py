@@ -283,6 +283,13 @@ class Rest(unittest.TestCase):
         _, after = self.ask("GET", "/api/areas")
         self.assertEqual(after["features"][0]["properties"]["weight"], 4)
         self.assertEqual(after["features"][-1]["properties"]["name"], "hall")
+        polygons = [[[[x, 0.2], [x + 0.1, 0.2], [x, 0.3], [x, 0.2]]] for x in (0.2, 0.4)]
+        wood = {"type": "Feature", "properties": {"name": "wood"},
+                "geometry": {"type": "MultiPolygon", "coordinates": polygons}}
+        for _ in range(2):  # the second time it replaces what the first one added
+            self.assertEqual(self.ask("POST", "/api/areas", {"type": "FeatureCollection", "features": [wood]})[0], 200)
+        names = [one["properties"]["name"] for one in self.ask("GET", "/api/areas")[1]["features"]]
+        self.assertEqual([name for name in names if name.startswith("wood")], ["wood-1", "wood-2"])
         self.assertEqual(self.ask("POST", "/api/areas", {"type": "FeatureCollection", "features": []})[0], 400)
 
     def test_pages_carry_what_keeps_browsers_careful(self):
@@ -315,6 +322,16 @@ class Doors(unittest.TestCase):
                 self.assertEqual(program.json("GET", "/api/state", **bearer)[0], 200)
                 command = {"type": "land_all", "id": 1}
                 self.assertEqual(program.json("POST", "/api/commands", command, **bearer)[0], 403)
+
+    def test_tokens_that_can_be_read_on_the_way_are_warned_of(self):
+        with tempfile.TemporaryDirectory() as folder:
+            tokens = pathlib.Path(folder, "tokens")
+            tokens.write_text("viewer viewer-token-0123456789\n")
+            for address, is_warned_of in [("0.0.0.0", True), ("127.0.0.1", False)]:
+                with paper("--tokens", tokens, "--address", address) as program:
+                    program.process.terminate()
+                    said = program.process.stdout.read()
+                    self.assertEqual("warning: without TLS" in said, is_warned_of, address)
 
     def test_whoever_has_the_viewers_token_fills_the_console_for_viewers_alone(self):
         with tempfile.TemporaryDirectory() as folder:

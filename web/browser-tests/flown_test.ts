@@ -326,8 +326,11 @@ describe('files', () => {
     const page = await flyPaper();
     const geojson = await saved(page, 'Export areas (GeoJSON)');
     expect(JSON.parse(geojson)).toMatchObject({ type: 'FeatureCollection' });
-    await chosen(page, 'Import areas (GeoJSON)…', 'areas.geojson', geojson);
-    await areaRow(page, 'east-2').waitFor();
+    const changed = geojson.replaceAll('"weight": 1', '"weight": 7').replace('"south"', '"south as well"');
+    await chosen(page, 'Import areas (GeoJSON)…', 'areas.geojson', changed);
+    await areaRow(page, 'south as well').getByText('×7').waitFor();
+    await areaRow(page, 'east').getByText('×7').waitFor();
+    await areaRow(page, 'south').getByText('×1').waitFor();
     await chosen(page, 'Import areas (GeoJSON)…', 'broken.geojson', '{"type": "FeatureCollection"}');
     await page
       .getByTestId('notices')

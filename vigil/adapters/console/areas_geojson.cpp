@@ -1,8 +1,8 @@
 #include "vigil/adapters/console/areas_geojson.hpp"
 
-#include <algorithm>
-#include <cmath>
 #include <optional>
+#include <set>
+#include <string>
 #include <utility>
 
 #include <fmt/format.h>
@@ -41,31 +41,49 @@ void put_revisit(ordered_json& properties, const Entry& entry) {
   if (entry.revisit_s) properties["revisit_s"] = *entry.revisit_s;
 }
 
-std::vector<Vec2> points_in(const json& list) {
+std::vector<Vec2> points_in(const json& list, const std::string& place) {
   constexpr std::size_t kMostPoints = 10'000;
   if (!list.is_array() || list.size() > kMostPoints)
-    throw JsonFault(fmt::format("coordinates: must be a list of at most {} positions", kMostPoints));
+    throw JsonFault(fmt::format("{}: must be a list of at most {} positions", place, kMostPoints));
   std::vector<Vec2> points;
   for (const json& position : list) {
     const bool is_position = position.is_array() && position.size() >= 2 && position.size() <= 3 &&
                              position[0].is_number() && position[1].is_number();
-    if (!is_position) throw JsonFault("coordinates: must be positions [x, y] in metres, world frame");
+    if (!is_position) throw JsonFault(place + ": must be positions [x, y] in metres, world frame");
     points.emplace_back(position[0].get<double>(), position[1].get<double>());
   }
   return points;
 }
 
-std::vector<Vec2> outline_in(const json& rings) {
-  if (!rings.is_array() || rings.size() != 1)
-    throw JsonFault("coordinates: a polygon must have one ring; holes are no-fly polygons of their own");
-  std::vector<Vec2> outline = points_in(rings[0]);
+std::vector<Vec2> outline_in(const json& rings, const std::string& place) {
+  if (!rings.is_array() || rings.empty()) throw JsonFault(place + ": must be a list of one ring");
+  if (rings.size() > 1)
+    throw JsonFault(
+        fmt::format("{}: has {} rings; a polygon must have one: no hole can be cut into it; draw polygons "
+                    "around the hole, or a no-fly polygon in its place",
+                    place, rings.size()));
+  std::vector<Vec2> outline = points_in(rings[0], place);
   if (outline.size() > 1 && outline.front() == outline.back()) outline.pop_back();
   return outline;
 }
 
-TargetEntry entry_in(const JsonReader& properties, const std::string& name, const json& geometry) {
+/// The outlines of a Polygon or a MultiPolygon.
+std::vector<std::vector<Vec2>> outlines_in(const std::string& type, const json& coordinates, const std::string& place) {
+  if (type == "Polygon") return {outline_in(coordinates, place)};
+  if (!coordinates.is_array() || coordinates.empty() || coordinates.size() > runtime::MissionDesk::kMostEdits)
+    throw JsonFault(fmt::format("{}: must be a list of 1 to {} polygons", place, runtime::MissionDesk::kMostEdits));
+  std::vector<std::vector<Vec2>> outlines;
+  for (const json& rings : coordinates)
+    outlines.push_back(outline_in(rings, fmt::format("{}[{}]", place, outlines.size())));
+  return outlines;
+}
+
+/// A feature's entries: one, but of a MultiPolygon as many as it has polygons, their names numbered where there are
+/// several. The name is empty where the feature has none.
+std::vector<TargetEntry> entries_in(const JsonReader& properties, const JsonReader& shape, const json& geometry,
+                                    const std::string& place) {
   constexpr std::size_t kMostWordBytes = 40;
-  const JsonReader shape(geometry, "geometry");
+  constexpr std::size_t kMostNameBytes = 400;
   const std::string type = shape.text("type", kMostWordBytes);
   const json& coordinates = geometry.contains("coordinates") ? geometry.at("coordinates") : json::array();
   const auto number = [&](std::string_view member, double otherwise) {
@@ -73,37 +91,76 @@ TargetEntry entry_in(const JsonReader& properties, const std::string& name, cons
   };
   const std::optional<double> revisit_s =
       properties.has("revisit_s") ? std::optional(properties.number("revisit_s")) : std::nullopt;
-  if (type == "Point")
-    return runtime::ClusterEntry{name, points_in(json::array({coordinates})), number("weight", 1.0), revisit_s};
-  if (type == "MultiPoint")
-    return runtime::ClusterEntry{name, points_in(coordinates), number("weight", 1.0), revisit_s};
-  if (type != "Polygon") shape.refuse("type", "must be Point, MultiPoint or Polygon");
-  if (properties.has("kind") && properties.text("kind", kMostWordBytes) == "no_fly")
-    return runtime::NoFlyEntry{name, outline_in(coordinates)};
-  return runtime::AreaEntry{name, outline_in(coordinates), number("weight", 5.0), number("soft_edge_m", 0.0),
-                            revisit_s};
+  const std::string name = properties.has("name") ? properties.text("name", kMostNameBytes) : std::string();
+  const bool is_point = type == "Point";
+  if (is_point || type == "MultiPoint")
+    return {runtime::ClusterEntry{name, points_in(is_point ? json::array({coordinates}) : coordinates, place),
+                                  number("weight", 1.0), revisit_s}};
+  if (type != "Polygon" && type != "MultiPolygon")
+    shape.refuse("type", "must be Point, MultiPoint, Polygon or MultiPolygon");
+  const bool is_no_fly = properties.has("kind") && properties.text("kind", kMostWordBytes) == "no_fly";
+  std::vector<TargetEntry> entries;
+  std::vector<std::vector<Vec2>> outlines = outlines_in(type, coordinates, place);
+  for (std::vector<Vec2>& outline : outlines) {
+    const bool is_numbered = !name.empty() && outlines.size() > 1;
+    std::string own = is_numbered ? fmt::format("{}-{}", name, entries.size() + 1) : name;
+    if (is_no_fly)
+      entries.emplace_back(runtime::NoFlyEntry{std::move(own), std::move(outline)});
+    else
+      entries.emplace_back(runtime::AreaEntry{std::move(own), std::move(outline), number("weight", 5.0),
+                                              number("soft_edge_m", 0.0), revisit_s});
+  }
+  return entries;
 }
 
-bool is_there(const runtime::Mission& mission, TargetKind kind, const std::string& name) {
-  const auto has = [&](const auto& entries) {
-    return std::any_of(entries.begin(), entries.end(), [&](const auto& entry) { return entry.name == name; });
-  };
-  if (kind == TargetKind::kCluster) return has(mission.targets.clusters);
-  return kind == TargetKind::kArea ? has(mission.targets.areas) : has(mission.no_fly);
-}
+/// The names that are there, and what becomes of an entry of a file beside them.
+class Intake {
+ public:
+  explicit Intake(const runtime::Mission& mission) {
+    for (const auto& entry : mission.targets.clusters) there_.insert({TargetKind::kCluster, entry.name});
+    for (const auto& entry : mission.targets.areas) there_.insert({TargetKind::kArea, entry.name});
+    for (const auto& entry : mission.no_fly) there_.insert({TargetKind::kNoFly, entry.name});
+  }
 
-runtime::TargetEdit edit_in(const JsonReader& feature, const json& object, const runtime::Mission& mission,
-                            std::size_t number) {
-  constexpr std::size_t kMostNameBytes = 400;
+  runtime::TargetEdit take(TargetEntry entry, const std::string& place) {
+    const auto kind = static_cast<TargetKind>(entry.index());
+    std::string& name = std::visit([](auto& one) -> std::string& { return one.name; }, entry);
+    if (name.empty()) name = free_name(kind);
+    if (!of_the_file_.insert({kind == TargetKind::kNoFly, name}).second)
+      throw JsonFault(fmt::format("{}: the name {} is there twice; names must differ", place, name));
+    if (there_.contains({kind, name})) return runtime::ReplaceEntry{{kind, name}, std::move(entry)};
+    const TargetKind other = kind == TargetKind::kCluster ? TargetKind::kArea : TargetKind::kCluster;
+    if (kind != TargetKind::kNoFly && there_.contains({other, name}))
+      throw JsonFault(fmt::format("{}: {} is the name of {} already; give it another", place, name,
+                                  other == TargetKind::kArea ? "an area" : "a cluster"));
+    there_.insert({kind, name});
+    return runtime::AddEntry{std::move(entry)};
+  }
+
+ private:
+  /// Clusters and areas share their names.
+  [[nodiscard]] bool is_taken(TargetKind kind, const std::string& name) const {
+    if (kind == TargetKind::kNoFly) return there_.contains({kind, name});
+    return there_.contains({TargetKind::kCluster, name}) || there_.contains({TargetKind::kArea, name});
+  }
+  [[nodiscard]] std::string free_name(TargetKind kind) const {
+    std::string name = "imported";
+    for (int number = 2; is_taken(kind, name); ++number) name = fmt::format("imported-{}", number);
+    return name;
+  }
+
+  std::set<runtime::TargetName> there_;
+  std::set<std::pair<bool, std::string>> of_the_file_;  ///< no-fly polygon or not, and its name
+};
+
+void take_feature(const JsonReader& feature, const json& object, const std::string& place, Intake& intake,
+                  std::vector<runtime::TargetEdit>& edits) {
   const bool has_properties = feature.has("properties") && !feature.is_null("properties");
   const json none = json::object();
   const JsonReader properties = has_properties ? feature.object("properties") : JsonReader(none, "properties");
-  std::string name =
-      properties.has("name") ? properties.text("name", kMostNameBytes) : fmt::format("imported {}", number + 1);
-  TargetEntry entry = entry_in(properties, name, object.contains("geometry") ? object.at("geometry") : none);
-  const auto kind = static_cast<TargetKind>(entry.index());
-  if (is_there(mission, kind, name)) return runtime::ReplaceEntry{{kind, std::move(name)}, std::move(entry)};
-  return runtime::AddEntry{std::move(entry)};
+  const JsonReader shape = feature.object("geometry");
+  for (TargetEntry& entry : entries_in(properties, shape, object.at("geometry"), place + ".geometry.coordinates"))
+    edits.push_back(intake.take(std::move(entry), place));
 }
 
 }  // namespace
@@ -136,9 +193,13 @@ std::variant<std::vector<runtime::TargetEdit>, std::string> edits_of_geojson(std
   try {
     const JsonReader reader(collection, "");
     if (reader.text("type", 40) != "FeatureCollection") reader.refuse("type", "must be FeatureCollection");
+    Intake intake(mission);
     std::vector<runtime::TargetEdit> edits;
-    for (const JsonReader& feature : reader.objects("features", runtime::MissionDesk::kMostEdits))
-      edits.push_back(edit_in(feature, collection.at("features")[edits.size()], mission, edits.size()));
+    std::size_t number = 0;
+    for (const JsonReader& feature : reader.objects("features", runtime::MissionDesk::kMostEdits)) {
+      const json& object = collection.at("features")[number];
+      take_feature(feature, object, fmt::format("features[{}]", number++), intake, edits);
+    }
     if (edits.empty()) reader.refuse("features", "must have at least one feature");
     return edits;
   } catch (const JsonFault& fault) {

@@ -3,8 +3,12 @@
 #include <algorithm>
 #include <fstream>
 #include <iterator>
+#include <regex>
 #include <set>
+#include <string>
+#include <vector>
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include "vigil/adapters/console/console_for_tests.hpp"
@@ -17,6 +21,19 @@ using namespace std::chrono_literals;
 
 constexpr const char* kArea = R"({"type":"FeatureCollection","features":[{"type":"Feature","properties":{"name":"hall"},
   "geometry":{"type":"Polygon","coordinates":[[[-0.5,10.5],[0,10.5],[0,11],[-0.5,10.5]]]}}]})";
+
+/// A small triangle from `x` on to the right, as a polygon's list of rings.
+std::string ring_at(double x) {
+  return fmt::format("[[[{0:.1f},10.5],[{1:.1f},10.5],[{0:.1f},10.6],[{0:.1f},10.5]]]", x, x + 0.1);
+}
+std::string polygon_at(double x) { return fmt::format(R"({{"type":"Polygon","coordinates":{}}})", ring_at(x)); }
+
+/// A file of one feature.
+std::string collection(const std::string& properties, const std::string& geometry) {
+  return fmt::format(
+      R"({{"type":"FeatureCollection","features":[{{"type":"Feature","properties":{},"geometry":{}}}]}})", properties,
+      geometry);
+}
 
 /// The console's REST interface on a flying swarm; `console.fly()` is the test's.
 class RestTest : public ::testing::Test {
@@ -105,6 +122,54 @@ TEST_F(RestTest, Areas_go_out_and_come_in_again) {
   EXPECT_EQ(status(post("/api/areas", *ask(get("/api/areas")).body)), 200);
   EXPECT_EQ(console.hub.mission()->targets.areas.size(), 2U);
   EXPECT_EQ(json(post("/api/areas", R"({"type":"FeatureCollection","features":[]})")).at("code"), "invalid");
+}
+
+TEST_F(RestTest, Areas_that_come_in_replace_those_of_their_name_and_get_free_names_where_they_have_none) {
+  console.fly();
+  const auto names = [this] {
+    std::vector<std::string> all;
+    for (const auto& area : console.hub.mission()->targets.areas) all.push_back(area.name);
+    return all;
+  };
+  const std::size_t before = names().size();
+  const std::string heavy = std::regex_replace(std::string(kArea), std::regex("\"name\":"), R"("weight":9,"name":)");
+  EXPECT_EQ(status(post("/api/areas", kArea)), 200);
+  EXPECT_EQ(status(post("/api/areas", heavy)), 200);
+  EXPECT_EQ(names().size(), before + 1);
+  EXPECT_EQ(console.hub.mission()->targets.areas.back().weight, 9.0);
+  const std::string nameless = collection("{}", polygon_at(0.2));
+  for (int times = 0; times < 2; ++times) EXPECT_EQ(status(post("/api/areas", nameless)), 200);
+  EXPECT_EQ(names().size(), before + 3);
+  EXPECT_EQ(names().at(before + 1), "imported");
+  EXPECT_EQ(names().back(), "imported-2");
+}
+
+TEST_F(RestTest, Every_polygon_of_a_multi_polygon_is_an_area_with_a_number) {
+  console.fly();
+  const std::string both =
+      fmt::format(R"({{"type":"MultiPolygon","coordinates":[{},{}]}})", ring_at(0.2), ring_at(0.6));
+  EXPECT_EQ(status(post("/api/areas", collection(R"({"name":"wood"})", both))), 200);
+  const auto& areas = console.hub.mission()->targets.areas;
+  ASSERT_GE(areas.size(), 2U);
+  EXPECT_EQ(areas[areas.size() - 2].name, "wood-1");
+  EXPECT_EQ(areas.back().name, "wood-2");
+}
+
+TEST_F(RestTest, Areas_with_holes_and_with_names_that_are_taken_are_refused_with_the_place) {
+  console.fly();
+  const auto reason = [this](const std::string& body) {
+    return std::string(json(post("/api/areas", body)).at("reason"));
+  };
+  const std::string ring = ring_at(0.2);
+  const std::string holed =
+      fmt::format(R"({{"type":"Polygon","coordinates":[{0},{0}]}})", ring.substr(1, ring.size() - 2));
+  EXPECT_EQ(reason(collection("{}", holed)).find("features[0].geometry.coordinates: has 2 rings"), 0U);
+  EXPECT_EQ(reason(collection(R"({"name":"east"})", polygon_at(0.2))),
+            "features[0]: east is the name of a cluster already; give it another");
+  const std::string feature =
+      fmt::format(R"({{"type":"Feature","properties":{{"name":"x"}},"geometry":{}}})", polygon_at(0.2));
+  EXPECT_EQ(reason(fmt::format(R"({{"type":"FeatureCollection","features":[{0},{0}]}})", feature)),
+            "features[1]: the name x is there twice; names must differ");
 }
 
 TEST_F(RestTest, Commands_are_answered_as_by_websocket_with_the_status_that_says_the_same) {

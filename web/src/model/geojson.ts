@@ -1,6 +1,6 @@
 import { list, maybe, oneOf, record, ShapeError, text, finite, type Shape } from '../link/shape';
 import { crossesItself, type Point } from './geometry';
-import { freeName, type Edit, type Targets } from './targets';
+import { apply, find, freeName, type Edit, type Entry, type Kind, type Targets } from './targets';
 
 /**
  * Areas as GeoJSON, in the mission's own world frame (metres, not longitude and latitude: a mission has no datum). The
@@ -10,6 +10,7 @@ export const kFrame = 'local metres, world frame of the mission';
 
 const kMostFeatures = 1200;
 const kMostPoints = 10_000;
+const kMostPolygons = 200;
 
 export function writeAreas(targets: Targets): unknown {
   const closed = (outline: readonly Point[]): readonly Point[] => (outline[0] ? [...outline, outline[0]] : []);
@@ -65,16 +66,18 @@ const collectionShape = record({
 type Properties = Exclude<ReturnType<typeof featureShape>['properties'], null>;
 const kNoProperties: Properties = { kind: null, name: null, weight: null, soft_edge_m: null, revisit_s: null };
 
-/** The edits that add the file's features under free names, or why it cannot be read. */
+/**
+ * The edits that bring the file's features in, or why it cannot be read. A feature with the name of an entry of its kind
+ * replaces that entry, as POST /api/areas does; one without a name gets a free one.
+ */
 export function readAreas(json: string, targets: Targets): Edit[] | string {
   try {
     const { features } = collectionShape(JSON.parse(json), 'file');
     if (features.length === 0) return 'there is no feature in it';
-    let taken = targets;
-    return features.map((feature, i) => {
-      const edit = readFeature(feature.geometry, feature.properties ?? kNoProperties, `features[${i}]`, taken);
-      if (edit.op === 'add') taken = withNameTaken(taken, edit);
-      return edit;
+    const intake = new Intake(targets);
+    return features.flatMap((feature, i) => {
+      const place = `features[${i}]`;
+      return readFeature(feature.geometry, feature.properties ?? kNoProperties, place).map((read) => intake.take(read));
     });
   } catch (error) {
     if (error instanceof ShapeError) return error.message;
@@ -83,42 +86,65 @@ export function readAreas(json: string, targets: Targets): Edit[] | string {
   }
 }
 
-const withNameTaken = (targets: Targets, edit: Extract<Edit, { op: 'add' }>): Targets =>
-  edit.kind === 'no_fly'
-    ? { ...targets, no_fly: [...targets.no_fly, { name: edit.entry.name, outline_m: [] }] }
-    : {
-        ...targets,
-        clusters: [...targets.clusters, { name: edit.entry.name, points_m: [], weight: 1, revisit_s: null }],
-      };
+/** An entry of a file; `name` is empty where the file has none. */
+interface Read {
+  readonly kind: Kind;
+  readonly entry: Entry;
+  readonly place: string;
+}
 
-function readFeature(geometry: Record<string, unknown>, properties: Properties, place: string, taken: Targets): Edit {
-  const type = oneOf('Point', 'MultiPoint', 'Polygon')(geometry['type'], `${place}.geometry.type`);
-  const { weight, revisit_s } = properties;
-  const at = `${place}.geometry.coordinates`;
-  if (type !== 'Polygon') {
-    const points_m =
-      type === 'Point'
-        ? [position(geometry['coordinates'], at)]
-        : list(position, kMostPoints)(geometry['coordinates'], at);
-    if (points_m.length === 0) throw new ShapeError(`${at}: at least one point expected`);
-    const name = freeName(taken, 'cluster', properties.name ?? 'imported');
-    return { op: 'add', kind: 'cluster', entry: { name, points_m, weight: weight ?? 1, revisit_s } };
+/** Names of a file beside those that are there. */
+class Intake {
+  private readonly seen = new Set<string>();
+
+  constructor(private taken: Targets) {}
+
+  take({ kind, entry, place }: Read): Edit {
+    const name = entry.name || freeName(this.taken, kind, 'imported');
+    const list = kind === 'no_fly' ? 'no_fly' : 'watched';
+    if (this.seen.has(`${list} ${name}`)) throw new ShapeError(`${place}: the name ${name} is there twice`);
+    this.seen.add(`${list} ${name}`);
+    const named = { ...entry, name };
+    if (find(this.taken, { kind, name })) return { op: 'replace', kind, name, entry: named };
+    const other = kind === 'cluster' ? 'area' : 'cluster';
+    if (kind !== 'no_fly' && find(this.taken, { kind: other, name }))
+      throw new ShapeError(`${place}: ${name} is the name of ${other === 'area' ? 'an area' : 'a cluster'} already`);
+    const edit: Edit = { op: 'add', kind, entry: named };
+    this.taken = apply(this.taken, edit) ?? this.taken;
+    return edit;
   }
-  const outline_m = outlineOf(geometry['coordinates'], at);
-  if (properties.kind === 'no_fly')
-    return {
-      op: 'add',
-      kind: 'no_fly',
-      entry: { name: freeName(taken, 'no_fly', properties.name ?? 'imported'), outline_m },
-    };
-  const name = freeName(taken, 'area', properties.name ?? 'imported');
-  const entry = { name, outline_m, weight: weight ?? 5, soft_edge_m: properties.soft_edge_m ?? 0, revisit_s };
-  return { op: 'add', kind: 'area', entry };
+}
+
+/** A MultiPolygon is as many entries as it has polygons, their names numbered where there are several. */
+function readFeature(geometry: Record<string, unknown>, properties: Properties, place: string): Read[] {
+  const type = oneOf('Point', 'MultiPoint', 'Polygon', 'MultiPolygon')(geometry['type'], `${place}.geometry.type`);
+  const at = `${place}.geometry.coordinates`;
+  const coordinates = geometry['coordinates'];
+  const name = properties.name ?? '';
+  if (type === 'Polygon') return [outlined(outlineOf(coordinates, at), name, properties, place)];
+  if (type === 'MultiPolygon') {
+    const polygons = list(outlineOf, kMostPolygons)(coordinates, at);
+    if (polygons.length === 0) throw new ShapeError(`${at}: at least one polygon expected`);
+    const nameOf = (i: number): string => (name !== '' && polygons.length > 1 ? `${name}-${i + 1}` : name);
+    return polygons.map((outline, i) => outlined(outline, nameOf(i), properties, place));
+  }
+  const points_m = type === 'Point' ? [position(coordinates, at)] : list(position, kMostPoints)(coordinates, at);
+  if (points_m.length === 0) throw new ShapeError(`${at}: at least one point expected`);
+  const entry = { name, points_m, weight: properties.weight ?? 1, revisit_s: properties.revisit_s };
+  return [{ kind: 'cluster', entry, place }];
+}
+
+function outlined(outline_m: Point[], name: string, properties: Properties, place: string): Read {
+  if (properties.kind === 'no_fly') return { kind: 'no_fly', entry: { name, outline_m }, place };
+  const { weight, soft_edge_m, revisit_s } = properties;
+  const entry = { name, outline_m, weight: weight ?? 5, soft_edge_m: soft_edge_m ?? 0, revisit_s };
+  return { kind: 'area', entry, place };
 }
 
 function outlineOf(coordinates: unknown, place: string): Point[] {
   const rings = list(list(position, 1001), 10)(coordinates, place);
-  if (rings.length !== 1) throw new ShapeError(`${place}: one ring expected; holes are not known here`);
+  if (rings.length !== 1)
+    throw new ShapeError(`${place}: has ${rings.length} rings; a polygon must have one: no hole can be cut into it`);
   const ring = rings[0]!;
   const [first, last] = [ring[0], ring[ring.length - 1]];
   const isClosed = first && last && first[0] === last[0] && first[1] === last[1];

@@ -23,14 +23,47 @@ describe('GeoJSON', () => {
     expect(JSON.stringify(writeAreas(targets))).not.toMatch('null');
   });
 
-  it('Names that are taken get a number', () => {
-    const twice = applied(readAreas(JSON.stringify(writeAreas(targets)), targets), targets);
-    expect(twice?.areas.map((entry) => entry.name)).toEqual(['ridge', 'ridge-2']);
-    expect(twice?.no_fly.map((entry) => entry.name)).toEqual(['road', 'road-2']);
+  const square = (x: number) => [[[x, 0], [x + 1, 0], [x + 1, 1], [x, 1], [x, 0]]]; // prettier-ignore
+  const collection = (geometry: unknown, properties: unknown = null): string =>
+    JSON.stringify({ type: 'FeatureCollection', features: [{ type: 'Feature', properties, geometry }] });
+
+  it('What has the name of an entry of its kind replaces it, what has no name gets a free one', () => {
+    const heavier = { ...targets, areas: [{ ...targets.areas[0]!, weight: 9 }] };
+    expect(applied(readAreas(JSON.stringify(writeAreas(heavier)), targets), targets)).toEqual(heavier);
+    const nameless = collection({ type: 'Polygon', coordinates: square(0) });
+    const once = applied(readAreas(nameless, targets), targets)!;
+    expect(applied(readAreas(nameless, once), once)?.areas.map((entry) => entry.name)).toEqual(
+      ['ridge', 'imported', 'imported-2'], // prettier-ignore
+    );
   });
 
-  const collection = (geometry: unknown): string =>
-    JSON.stringify({ type: 'FeatureCollection', features: [{ type: 'Feature', properties: null, geometry }] });
+  it('A name of the other kind, and one that is there twice, are refused', () => {
+    expect(readAreas(collection({ type: 'Polygon', coordinates: square(0) }, { name: 'east' }), targets)).toBe(
+      'features[0]: east is the name of a cluster already',
+    );
+    const { features } = writeAreas(targets) as { features: unknown[] };
+    const twice = JSON.stringify({ type: 'FeatureCollection', features: [...features, features[1]] });
+    expect(readAreas(twice, kNoTargets)).toBe('features[3]: the name ridge is there twice');
+  });
+
+  it('Every polygon of a MultiPolygon is an entry, with a number where there are several', () => {
+    const both = { type: 'MultiPolygon', coordinates: [square(0), square(2)] };
+    const areas = applied(readAreas(collection(both, { name: 'wood', weight: 3 }), targets), targets)!.areas.slice(1);
+    expect(areas.map(({ name, weight, outline_m }) => [name, weight, outline_m[0]])).toEqual([
+      ['wood-1', 3, [0, 0]],
+      ['wood-2', 3, [2, 0]],
+    ]);
+    const one = collection({ type: 'MultiPolygon', coordinates: [square(0)] }, { name: 'lake', kind: 'no_fly' });
+    expect(applied(readAreas(one, targets), targets)?.no_fly.map((entry) => entry.name)).toEqual(['road', 'lake']);
+  });
+
+  it('A hole is refused with the reason', () => {
+    const holed = [...square(0), ...square(0)];
+    expect(readAreas(collection({ type: 'Polygon', coordinates: holed }), kNoTargets)).toMatch(/2 rings.*no hole/);
+    expect(readAreas(collection({ type: 'MultiPolygon', coordinates: [square(0), holed] }), kNoTargets)).toMatch(
+      /coordinates\[1\]: has 2 rings/,
+    );
+  });
 
   it('What cannot be read is refused with the place', () => {
     expect(readAreas('{', kNoTargets)).toBe('it is not JSON');
