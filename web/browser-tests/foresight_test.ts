@@ -78,6 +78,31 @@ describe('looking ahead', () => {
   });
 });
 
+describe('with every drone taken away', () => {
+  it('It says that nothing is covered, and leaves out what would speak of covering', async () => {
+    await fly('paper.yaml', { width: 1366, height: 768 });
+    await page.locator('.map-field').focus();
+    await page.keyboard.press('Control+a');
+    await page.keyboard.press('w');
+    await ahead().getByText('What if: nothing is covered').waitFor();
+    const whatIf = (name: string) => ahead().getByRole('row', { name }).locator('.ghostly').first();
+    for (const name of ['metric', 'closest pair', 'east']) expect(await whatIf(name).textContent()).toBe('–');
+    expect(await whatIf('oldest place').textContent()).toMatch(/\d/);
+    await keepPicture(page, 'ahead_nobody');
+  });
+
+  it('All areas are above the fold on a small screen', async () => {
+    await fly('paper.yaml', { width: 1366, height: 768 });
+    await page.locator('.map-field').focus();
+    await page.keyboard.press('w');
+    await row('south').waitFor();
+    const figures = ahead().getByRole('group', { name: 'Figures of the look ahead' });
+    const [line, shown] = [await row('south').boundingBox(), await figures.boundingBox()];
+    expect(line!.y + line!.height).toBeLessThanOrEqual(shown!.y + shown!.height);
+    await keepPicture(page, 'ahead_small');
+  });
+});
+
 describe.each(['dark', 'light'] as const)('in the %s theme', (theme) => {
   it('axe finds nothing, with edits staged and a drone missed', async () => {
     await fly('wildfire.yaml', { theme });

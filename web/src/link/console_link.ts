@@ -28,6 +28,8 @@ export interface LinkState {
   readonly phase: Phase;
   /** Why it is not live, for people; empty while it is. */
   readonly reason: string;
+  /** The program said that it ends: nothing flies the drones any more, until it is started again. */
+  readonly hasEnded: boolean;
   /** When the next try is made (World.nowMs), while lost. */
   readonly retryAtMs: number | null;
 }
@@ -65,9 +67,15 @@ export class ConsoleLink {
   private nextId = 1;
   private cancelTimer: () => void = () => undefined;
   private cancelRetry: () => void = () => undefined;
-  private current: LinkState = { phase: 'connecting', reason: '', retryAtMs: null };
+  private current: LinkState = {
+    phase: 'connecting',
+    reason: '',
+    hasEnded: false,
+    retryAtMs: null,
+  };
   private readonly waiting = new Map<number, { settle: (answer: Answer) => void; cancel: () => void }>();
   private closing = '';
+  private hasEnded = false;
 
   constructor(
     private readonly world: World,
@@ -142,10 +150,15 @@ export class ConsoleLink {
     else if (message.type === 'preview')
       this.settle(message.id, { ok: true, ack: acknowledged(message), preview: message });
     else if (message.type === 'refused') this.settle(message.id, { ok: false, refused: message });
-    else if (message.type === 'bye') this.closing = message.code;
-    if (message.type === 'bye') this.change(this.current.phase, message.reason);
+    else if (message.type === 'bye') this.dismissed(message.code, message.reason);
     else if (message.type === 'hello') this.greeted(message);
     else this.listener.messageCame(message);
+  }
+
+  private dismissed(code: string, reason: string): void {
+    this.closing = code;
+    this.hasEnded = code === 'ending';
+    this.change(this.current.phase, reason);
   }
 
   private greeted(hello: ServerMessage): void {
@@ -162,6 +175,7 @@ export class ConsoleLink {
 
   /** Fresh data came: live, until nothing comes for too long. */
   private heard(): void {
+    this.hasEnded = false;
     if (this.current.phase !== 'live') this.change('live', '');
     this.cancelTimer();
     this.cancelTimer = this.world.after(kSilenceMs, () => this.fellSilent());
@@ -207,7 +221,7 @@ export class ConsoleLink {
   }
 
   private change(phase: Phase, reason: string, retryAtMs: number | null = null): void {
-    this.current = { phase, reason, retryAtMs };
+    this.current = { phase, reason, hasEnded: this.hasEnded, retryAtMs };
     this.listener.stateChanged(this.current);
   }
 }

@@ -56,6 +56,19 @@ describe('console link', () => {
     expect(link.state.phase).toBe('silent');
   });
 
+  it('A program that said that it ends has ended, until one greets again', () => {
+    const { world, link } = connected();
+    world.last.say({ type: 'bye', code: 'ending', reason: 'the program ends' });
+    world.last.close();
+    expect(link.state).toMatchObject({ phase: 'lost', hasEnded: true });
+    world.pass(1000);
+    world.last.close();
+    expect(link.state.hasEnded).toBe(true);
+    link.open();
+    world.last.say(kHello);
+    expect(link.state).toMatchObject({ phase: 'live', hasEnded: false });
+  });
+
   it('A broken link tries again, waits longer each time, and is live again', () => {
     const { world, link, phases } = connected();
     world.last.close();

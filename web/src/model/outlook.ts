@@ -20,16 +20,25 @@ export function areaLines(preview: Preview): AreaLine[] {
   }));
 }
 
+/** No drone covers at its end: what speaks of a swarm that covers says nothing then. */
+export const isUncovered = (outlook: Outlook): boolean => outlook.active === 0;
+
 /** The last value of a series; null for an empty one. */
 export const last = (values: readonly number[]): number | null => values[values.length - 1] ?? null;
 
 /**
- * What is still ahead of a drone's ghost trail, `elapsedS` after it was computed: from where it would be by now to its
- * end. Places that are not known are left out.
+ * What is still ahead of a drone's ghost trail, `elapsedS` after it was computed: from where it would be by now to where it
+ * would be `lengthS` after that, or to its end. Places that are not known are left out.
  */
-export function trailAhead(xy: readonly (number | null)[], spacingS: number, elapsedS: number): Point[] {
+export function trailAhead(
+  xy: readonly (number | null)[],
+  spacingS: number,
+  elapsedS: number,
+  lengthS: number,
+): Point[] {
   const points: Point[] = [];
-  for (let i = 0; i + 1 < xy.length; i += 2) {
+  const most = Math.floor((Math.max(0, elapsedS) + lengthS) / spacingS) + 1;
+  for (let i = 0; i + 1 < xy.length && points.length < most; i += 2) {
     const [x, y] = [xy[i], xy[i + 1]];
     if (x != null && y != null) points.push([x, y]);
   }

@@ -42,17 +42,23 @@ describe('trailAhead', () => {
   const xy = [0, 0, 2, 0, 4, 0];
 
   it('What has been flown since is no longer ahead', () => {
-    expect(trailAhead(xy, 2, 0)).toEqual([[0, 0], [2, 0], [4, 0]]); // prettier-ignore
-    expect(trailAhead(xy, 2, 1)).toEqual([[1, 0], [2, 0], [4, 0]]); // prettier-ignore
-    expect(trailAhead(xy, 2, 2)).toEqual([[2, 0], [4, 0]]); // prettier-ignore
+    expect(trailAhead(xy, 2, 0, 60)).toEqual([[0, 0], [2, 0], [4, 0]]); // prettier-ignore
+    expect(trailAhead(xy, 2, 1, 60)).toEqual([[1, 0], [2, 0], [4, 0]]); // prettier-ignore
+    expect(trailAhead(xy, 2, 2, 60)).toEqual([[2, 0], [4, 0]]); // prettier-ignore
+  });
+
+  it('Only so many seconds of it are ahead, from where the drone would be by now', () => {
+    expect(trailAhead(xy, 2, 0, 2)).toEqual([[0, 0], [2, 0]]); // prettier-ignore
+    expect(trailAhead(xy, 2, 1, 2)).toEqual([[1, 0], [2, 0]]); // prettier-ignore
+    expect(trailAhead(xy, 2, 2, 2)).toEqual([[2, 0], [4, 0]]); // prettier-ignore
   });
 
   it('After its end only its end is left', () => {
-    expect(trailAhead(xy, 2, 99)).toEqual([[4, 0]]);
+    expect(trailAhead(xy, 2, 99, 60)).toEqual([[4, 0]]);
   });
 
   it('A drone that was never seen has no trail', () => {
-    expect(trailAhead([null, null, null, null], 2, 0)).toEqual([]);
+    expect(trailAhead([null, null, null, null], 2, 0, 60)).toEqual([]);
   });
 });
 

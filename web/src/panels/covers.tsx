@@ -73,7 +73,7 @@ function Disconnected() {
     return () => window.clearInterval(timer);
   }, []);
   void now.value;
-  const { reason, retryAtMs, phase } = session.linkState.value;
+  const { reason, retryAtMs, phase, hasEnded } = session.linkState.value;
   const wait = retryAtMs === null ? 0 : Math.max(0, (retryAtMs - session.world.nowMs()) / 1000);
   return (
     <div class="banner" data-testid="disconnected">
@@ -84,8 +84,8 @@ function Disconnected() {
         <strong class="alarm">
           <span role="alert">Disconnected.</span> What you see is {age(session.dataAgeS())} old and frozen.
         </strong>
-        {sentence(reason)} Editing is off. The drones need no console: the program goes on covering with the last
-        committed targets; should the program itself be gone, each vehicle hovers and then lands by its own failsafe.
+        {hasEnded ? 'The program was ended.' : sentence(reason)} Editing is off.{' '}
+        {hasEnded ? fateAfterTheEnd(session.mission.value?.fleet) : kFateWithoutConsole}
         {phase === 'lost' && <span class="dim"> Next try in {wait.toFixed(0)} s.</span>}
       </p>
       <button type="button" onClick={() => session.link.open()}>
@@ -94,6 +94,15 @@ function Disconnected() {
     </div>
   );
 }
+
+const kFateWithoutConsole =
+  'The drones need no console: the program goes on covering with the last committed targets; should the program itself be ' +
+  'gone, each vehicle hovers and then lands by its own failsafe.';
+
+const fateAfterTheEnd = (fleet: string | undefined): string =>
+  fleet === 'SIM'
+    ? 'Its simulated drones ended with it. Start it again to go on.'
+    : 'Nothing flies the drones any more: each hovers and then lands by its own failsafe. Start the program again to go on.';
 
 function Restarted() {
   const { session, orders } = useApp();

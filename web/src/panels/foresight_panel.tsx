@@ -1,6 +1,6 @@
 import type { Outlook, Preview } from '../link/messages';
 import { kMostGhosts } from '../map/ghosts_overlay';
-import { areaLines, last, type AreaLine } from '../model/outlook';
+import { areaLines, isUncovered, last, type AreaLine } from '../model/outlook';
 import { duration, metres } from '../model/units';
 import { kAheadS } from '../session/foresight';
 import { useApp } from './app_context';
@@ -50,58 +50,80 @@ function Question() {
 }
 
 function Figures({ answer }: { answer: Preview }) {
-  const both = answer.what_if !== null;
   const lines = areaLines(answer);
+  const futures = [answer.as_is, ...(answer.what_if ? [answer.what_if] : [])];
+  const areUncovered = futures.filter(isUncovered).length;
   return (
     <div class="figures" tabIndex={0} role="group" aria-label="Figures of the look ahead">
+      {areUncovered > 0 && (
+        <p class="warning">
+          {areUncovered === futures.length ? 'Nothing is covered' : 'What if: nothing is covered'}: no drone is left to
+          do it.
+        </p>
+      )}
       <table>
         <thead>
           <tr>
             <th scope="col">
               <span class="unseen">figure</span>
             </th>
-            <th scope="col">{both ? 'as is' : ''}</th>
-            {both && <th scope="col">what if</th>}
+            <th scope="col">{answer.what_if ? 'as is' : ''}</th>
+            {answer.what_if && <th scope="col">what if</th>}
           </tr>
         </thead>
         <tbody>
-          <Row name="metric" of={answer} read={(one) => `${(last(one.metric_percent) ?? 0).toPrecision(3)} %`} />
+          <Row name="metric" of={answer} read={metricOf} isOfCovering />
           <Row name="oldest place" of={answer} read={(one) => duration(Math.max(...one.worst_age_s))} />
-          <Row name="closest pair" of={answer} read={(one) => metres(one.least_pair_m)} />
+          <Row name="closest pair" of={answer} read={(one) => metres(one.least_pair_m)} isOfCovering />
         </tbody>
       </table>
-      <MetricCurve answer={answer} />
-      {lines.length > 0 && <AreaTable lines={lines} both={both} />}
+      {lines.length > 0 && <AreaTable lines={lines} of={answer} />}
+      <MetricCurve futures={futures} seconds={answer.seconds} />
       <Ghosts count={answer.ghosts.xy_m.length} />
     </div>
   );
 }
 
-function Row({ name, of, read }: { name: string; of: Preview; read: (outlook: Outlook) => string }) {
+const metricOf = (one: Outlook): string => `${(last(one.metric_percent) ?? 0).toPrecision(3)} %`;
+
+interface RowProps {
+  readonly name: string;
+  readonly of: Preview;
+  readonly read: (outlook: Outlook) => string;
+  /** It means nothing where nothing is covered, and is left out there. */
+  readonly isOfCovering?: boolean;
+}
+
+function Row({ name, of, read, isOfCovering }: RowProps) {
+  const isLeftOut = (one: Outlook): boolean => (isOfCovering ?? false) && isUncovered(one);
+  if (isLeftOut(of.as_is) && (!of.what_if || isLeftOut(of.what_if))) return null;
+  const show = (one: Outlook): string => (isLeftOut(one) ? kLeftOut : read(one));
   return (
     <tr>
       <th scope="row">{name}</th>
-      <td>{read(of.as_is)}</td>
-      {of.what_if && <td class="ghostly">{read(of.what_if)}</td>}
+      <td>{show(of.as_is)}</td>
+      {of.what_if && <td class="ghostly">{show(of.what_if)}</td>}
     </tr>
   );
 }
 
+const kLeftOut = '–';
 const kCurve = { width: 400, height: 46 };
 
 /** The metric over the time to come, on a logarithmic scale; the table says where it ends. */
-function MetricCurve({ answer }: { answer: Preview }) {
-  const curves = [answer.as_is, ...(answer.what_if ? [answer.what_if] : [])];
+function MetricCurve({ futures, seconds }: { futures: readonly Outlook[]; seconds: number }) {
+  const curves = futures.filter((future) => !isUncovered(future));
   const [low, high] = rangeOf(curves.flatMap((curve) => curve.metric_percent));
   const path = (curve: Outlook): string =>
     curve.metric_percent
       .map((value, i) => {
-        const x = (kCurve.width * curve.in_s[i]!) / answer.seconds;
+        const x = (kCurve.width * curve.in_s[i]!) / seconds;
         const y =
           kCurve.height * (1 - (Math.log(Math.max(value, low)) - Math.log(low)) / (Math.log(high) - Math.log(low)));
         return `${x.toFixed(1)},${y.toFixed(1)}`;
       })
       .join(' ');
+  if (curves.length === 0) return null;
   return (
     <svg
       class="curve"
@@ -109,8 +131,9 @@ function MetricCurve({ answer }: { answer: Preview }) {
       preserveAspectRatio="none"
       aria-hidden="true"
     >
-      <polyline points={path(answer.as_is)} />
-      {answer.what_if && <polyline class="ghostly" points={path(answer.what_if)} />}
+      {curves.map((curve) => (
+        <polyline class={curve === futures[0] ? '' : 'ghostly'} points={path(curve)} />
+      ))}
     </svg>
   );
 }
@@ -124,19 +147,19 @@ function rangeOf(values: readonly number[]): readonly [number, number] {
 
 type Area = AreaLine['asIs'];
 const within = (seconds: number | null | undefined): string =>
-  seconds === undefined ? 'none' : seconds === null ? `> ${kAheadS} s` : seconds === 0 ? 'now' : duration(seconds);
+  seconds === undefined ? kLeftOut : seconds === null ? `> ${kAheadS} s` : seconds === 0 ? 'now' : duration(seconds);
 
 /** Until an area has its share, until all of it was seen, and how long a part of it waits at most. */
-function AreaTable({ lines, both }: { lines: readonly AreaLine[]; both: boolean }) {
-  const pair = (line: AreaLine, read: (area: NonNullable<Area>) => number | null) => {
-    const show = (area: Area): string => within(area === null ? undefined : read(area));
+function AreaTable({ lines, of }: { lines: readonly AreaLine[]; of: Preview }) {
+  const pair = (line: AreaLine, read: (area: NonNullable<Area>, future: Outlook) => number | null | undefined) => {
+    const show = (area: Area, future: Outlook): string => within(area === null ? undefined : read(area, future));
     return (
       <td>
-        {show(line.asIs)}
-        {both && (
+        {show(line.asIs, of.as_is)}
+        {of.what_if && (
           <>
             <span class="unseen">, what if: </span>
-            <span class="ghostly">{show(line.whatIf)}</span>
+            <span class="ghostly">{show(line.whatIf, of.what_if)}</span>
           </>
         )}
       </td>
@@ -162,7 +185,7 @@ function AreaTable({ lines, both }: { lines: readonly AreaLine[]; both: boolean 
         {lines.map((line) => (
           <tr key={line.name} data-testid={`ahead-${line.name}`}>
             <th scope="row">{line.name}</th>
-            {pair(line, (area) => area.covered_in_s)}
+            {pair(line, (area, future) => (isUncovered(future) ? undefined : area.covered_in_s))}
             {pair(line, (area) => area.seen_in_s)}
             {pair(line, (area) => area.worst_age_s)}
           </tr>

@@ -1,12 +1,10 @@
-import { actionOf, chordOf, TwoPresses, type Action } from '../model/keyboard';
+import { actionOf, chordOf, kEmergencyWindowMs, TwoPresses, type Action } from '../model/keyboard';
 import type { App } from './app_context';
 import { FieldKeys } from './field_keys';
 
-const kStopArmedMs = 800;
-
 /** Keys of the whole page. Fields, open dialogs and pressed buttons keep theirs, but for the alarms. */
 export function listenForKeys(app: App): void {
-  const stop = new TwoPresses();
+  const stop = new StopKey(app);
   const inFields = new FieldKeys(app);
   window.addEventListener('keydown', (event) => {
     const chord = chordOf({
@@ -19,7 +17,7 @@ export function listenForKeys(app: App): void {
     if (inFields.take(event, action)) return;
     if (action === null || event.repeat || belongsToTarget(event, action)) return;
     event.preventDefault();
-    if (action === 'emergency-stop') pressStop(app, stop, event.timeStamp);
+    if (action === 'emergency-stop') stop.press(event.timeStamp);
     else if (action.startsWith('drone-')) selectDrone(app, Number(action.slice('drone-'.length)));
     else perform(app, action as Action);
   });
@@ -35,17 +33,30 @@ function belongsToTarget(event: KeyboardEvent, action: string): boolean {
   return target.matches('button, a, input, summary') && (action === 'commit' || action === 'place-here');
 }
 
-function pressStop(app: App, stop: TwoPresses, now: number): void {
-  const { session } = app;
-  if (!app.orders.mayStopMotors()) return;
-  if (stop.press(now)) {
-    app.isStopArmed.value = false;
-    app.orders.emergencyStop('all');
-    return;
+/** The emergency stop outside of fields: what it asks for after the first press is gone with the second, or with its time. */
+class StopKey {
+  private readonly presses = new TwoPresses();
+  private notice = 0;
+  private timer = 0;
+
+  constructor(private readonly app: App) {}
+
+  press(nowMs: number): void {
+    const { app } = this;
+    if (!app.orders.mayStopMotors()) return;
+    app.session.dismiss(this.notice);
+    app.isStopArmed.value = !this.presses.press(nowMs);
+    if (!app.isStopArmed.value) app.orders.emergencyStop('all');
+    else this.askAgain();
   }
-  app.isStopArmed.value = true;
-  session.notify('warning', 'Press . once more within 0.8 s to stop ALL motors.', kStopArmedMs);
-  window.setTimeout(() => (app.isStopArmed.value = false), kStopArmedMs);
+
+  private askAgain(): void {
+    const { app } = this;
+    const ask = 'Press . once more within 0.8 s to stop ALL motors.';
+    this.notice = app.session.notify('warning', ask, kEmergencyWindowMs);
+    window.clearTimeout(this.timer);
+    this.timer = window.setTimeout(() => (app.isStopArmed.value = false), kEmergencyWindowMs);
+  }
 }
 
 function selectDrone(app: App, number: number): void {

@@ -127,8 +127,15 @@ export class Editor {
     this.isCommitting.value = true;
     const answer = await session.commit();
     this.isCommitting.value = false;
-    if (answer.ok) session.notify('info', 'Committed: the swarm follows.');
+    if (answer.ok) session.notify('info', `Committed: ${this.whatFollows()}`);
     else this.commitRefused(answer.refused);
+  }
+
+  /** What a commit brings about by now. */
+  private whatFollows(): string {
+    const { snapshot } = this.session;
+    if (snapshot?.active === 0) return 'no drone covers now; those that will follow it.';
+    return snapshot?.isPaused ? 'the swarm follows once the clock goes on.' : 'the swarm follows.';
   }
 
   /** What was refused stays staged; after somebody else's change the next Enter commits it all the same. */
@@ -278,11 +285,18 @@ export class Editor {
     const entry = this.selectedEntry.value;
     if (!which || !entry) return;
     const point = this.selectedPoint.value;
-    const least = which.kind === 'cluster' ? 2 : 4;
-    if (point !== null && pointsOf(entry).length >= least) {
+    if (point !== null && which.kind !== 'cluster' && pointsOf(entry).length <= 3) this.keepTriangle(which.name);
+    else if (point !== null && pointsOf(entry).length > 1) {
       this.stage(`a point of ${which.name} removed`, { op: 'remove_point', ...which, index: point });
       this.selectedPoint.value = null;
     } else if (this.stage(`${which.name} removed`, { op: 'remove', ...which })) this.select(null);
+  }
+
+  /** A corner was meant, not the outline: that goes only when it is meant itself. */
+  private keepTriangle(name: string): void {
+    this.selectedPoint.value = null;
+    const reason = 'An outline needs three corners: this one stays.';
+    this.session.notify('warning', `${reason} Now ${name} as a whole is selected: Delete removes it.`);
   }
 
   movePoint(which: EntryName, index: number, to: Point, again: boolean): void {

@@ -5,6 +5,7 @@ import type { Hello, Mission, Operator, ServerMessage, Status, SwarmEvent, Targe
 import { FieldFrame } from '../model/field_frame';
 import { draftOf, isStaged, nothingStaged, rebase, touched, type Staging } from '../model/staging';
 import { kNoTargets, type EntryName, type Targets } from '../model/targets';
+import { deedOf } from '../model/deeds';
 import { Series } from './series';
 
 export type NoticeKind = 'info' | 'warning' | 'alarm';
@@ -17,6 +18,9 @@ export interface Notice {
 }
 
 const kMostEvents = 1000;
+/** Alarms stay until somebody dismisses them; so many are kept, and other messages besides. */
+const kMostAlarms = 50;
+const kMostOthers = 4;
 const kBeatMs = 200;
 
 /**
@@ -25,7 +29,12 @@ const kBeatMs = 200;
  */
 export class Session {
   readonly link: ConsoleLink;
-  readonly linkState = signal<LinkState>({ phase: 'connecting', reason: '', retryAtMs: null });
+  readonly linkState = signal<LinkState>({
+    phase: 'connecting',
+    reason: '',
+    hasEnded: false,
+    retryAtMs: null,
+  });
   readonly hello = signal<Hello | null>(null);
   readonly mission = signal<Mission | null>(null);
   readonly targets = signal<TargetsMessage | null>(null);
@@ -104,15 +113,25 @@ export class Session {
     return this.snapshot.ageS + (this.world.nowMs() - this.snapshotAtMs) / 1000;
   }
 
-  /** Shown for a while, or for `lastsMs` where it makes no sense any more after that. */
-  notify(kind: NoticeKind, text: string, lastsMs = kind === 'info' ? 4000 : 9000): void {
+  /**
+   * Shown for a while, or for `lastsMs` where it makes no sense any more after that; an alarm until somebody dismisses it.
+   * Gives back the notice's number.
+   */
+  notify(kind: NoticeKind, text: string, lastsMs = kind === 'info' ? 4000 : 9000): number {
     const notice = { number: this.nextNotice++, kind, text };
-    this.notices.value = [...this.notices.value.slice(-4), notice];
-    this.world.after(lastsMs, () => this.dismiss(notice.number));
+    const alarms = this.notices.value.filter((one) => one.kind === 'alarm').slice(-kMostAlarms);
+    const others = this.notices.value.filter((one) => one.kind !== 'alarm').slice(-kMostOthers);
+    this.notices.value = [...alarms, ...others, notice].sort((a, b) => a.number - b.number);
+    if (kind !== 'alarm') this.world.after(lastsMs, () => this.dismiss(notice.number));
+    return notice.number;
   }
 
   dismiss(number: number): void {
     this.notices.value = this.notices.value.filter((notice) => notice.number !== number);
+  }
+
+  dismissAlarms(): void {
+    this.notices.value = this.notices.value.filter((notice) => notice.kind !== 'alarm');
   }
 
   /** Sends a command and says what became of it; true when it was accepted. */
@@ -223,8 +242,26 @@ export class Session {
     const isRestarted = events.length > 0 && events[events.length - 1]!.number < this.lastEvent;
     const known = isRestarted ? [] : this.events.value.filter((event) => event.number < first);
     this.events.value = [...known, ...events].slice(-kMostEvents);
-    if (this.lastEvent > 0) this.announce(events.filter((event) => event.number > this.lastEvent && isNews(event)));
+    if (this.lastEvent > 0) this.tell(events.filter((event) => event.number > this.lastEvent));
     this.lastEvent = events[events.length - 1]?.number ?? this.lastEvent;
+  }
+
+  /** What an operator here did is no news to this console; what happened by itself is said before who asked for what. */
+  private tell(events: readonly SwarmEvent[]): void {
+    this.announce(events.filter((event) => event.severity !== 'info' && event.source !== 'operator'));
+    for (const event of events
+      .filter((one) => one.source === 'operator' && this.isOfAnother(one))
+      .slice(-kMostOthers)) {
+      const deed = deedOf(event);
+      this.notify(deed.kind, deed.text);
+    }
+  }
+
+  /** Where two consoles have the same name, what either did is said on both. */
+  private isOfAnother(event: SwarmEvent): boolean {
+    const own = this.hello.value;
+    const isShared = this.operators.value.some((one) => one.client !== own?.client && one.name === own?.name);
+    return event.by !== own?.name || isShared;
   }
 
   /** One message for a few events, one for all of them where they are many: the log has each. */
@@ -324,9 +361,6 @@ export class Session {
     void this.link.command({ type: 'editing', what });
   }
 }
-
-/** What its own operator did is no news to a console. */
-const isNews = (event: SwarmEvent): boolean => event.severity !== 'info' && event.source !== 'operator';
 
 const isSameMission = (a: Mission, b: Mission | null): boolean =>
   a.epoch === b?.epoch &&

@@ -21,31 +21,33 @@ const targetsOf = (revision: number, weight: number, names = ['east'], by = 'Ana
   uniform_floor: 0,
 });
 
-const event = (number: number, severity: string, text: string, source = 'swarm') => ({
+const event = (number: number, severity: string, text: string, source = 'swarm', by = '', what = 'landing') => ({
   number,
   tick: 0,
   time_s: 0,
   wall_ms: 0,
   severity,
   source,
-  what: 'landing',
+  what,
   drone: '',
   was: '',
-  by: '',
+  by,
   text,
   effect: '',
   next: '', // prettier-ignore
 });
 
 /** Two drones at rest, as the program sends them. */
-function snapshotBytes(epoch = 1): ArrayBuffer {
+function snapshotBytes(epoch = 1, active = 2, isPaused = false): ArrayBuffer {
   const bytes = new ArrayBuffer(96 + 16 + 8 + 8 + 3 * 8 + 2 * 4 + 5 * 4);
   const view = new DataView(bytes);
   view.setUint32(0, 0x56474c31, false);
   view.setUint8(4, 1);
+  view.setUint8(5, isPaused ? 1 : 0);
   view.setUint16(6, 96, true);
   view.setUint32(8, epoch, true);
   view.setUint32(12, 2, true);
+  view.setUint32(72, active, true);
   view.setFloat32(84, 0.001, true);
   return bytes;
 }
@@ -147,6 +149,82 @@ describe('session', () => {
     socket.say({ type: 'events', events: [4, 5, 6].map((number) => event(number, 'warning', `d${number} lands`)) });
     expect(session.notices.value.map((notice) => notice.text)).toContain('d4 lands, and 2 more: see the event log.');
     expect(session.events.value).toHaveLength(6);
+  });
+
+  it('What another operator does is news and says who; what is done here is not', () => {
+    const { session, socket } = begin();
+    const say = (...events: unknown[]): void => socket.say({ type: 'events', events });
+    const said = (): string[] => session.notices.value.map((notice) => notice.text);
+    say(event(1, 'info', 'begins', 'program'));
+    say(event(2, 'alarm', 'Ana: emergency_stop all', 'operator', 'Ana', 'emergency_stop'));
+    expect(said()).toEqual([]);
+    say(
+      event(3, 'alarm', '', 'operator', 'Ben', 'emergency_stop'),
+      event(4, 'info', '', 'operator', 'Ben', 'land_all'),
+    );
+    say(event(5, 'info', 'Ben: hold d1', 'operator', 'Ben', 'hold'));
+    expect(said()).toEqual([
+      'EMERGENCY STOP by Ben: motors off, all drones.',
+      'LAND ALL by Ben: every drone comes down.',
+      'Ben: hold d1',
+    ]);
+  });
+
+  it('Where two consoles share a name, what either does is said on both', () => {
+    const { session, socket } = begin();
+    const ana = (client: number) => ({ client, name: 'Ana', role: 'operator', editing: [] });
+    socket.say({ type: 'events', events: [event(1, 'info', 'begins', 'program')] });
+    socket.say({ type: 'presence', operators: [ana(1), ana(2)] });
+    socket.say({ type: 'events', events: [event(2, 'info', '', 'operator', 'Ana', 'land_all')] });
+    expect(session.notices.value).toMatchObject([{ kind: 'alarm', text: 'LAND ALL by Ana: every drone comes down.' }]);
+  });
+
+  it('Alarms stay until they are dismissed, whatever else is said meanwhile', () => {
+    const { world, session } = begin();
+    const first = session.notify('alarm', 'motors off');
+    session.notify('alarm', 'd1 is lost');
+    for (let i = 0; i < 20; i++) session.notify('warning', `warning ${i}`);
+    world.pass(3_600_000);
+    expect(session.notices.value.map((notice) => notice.text)).toEqual(['motors off', 'd1 is lost']);
+    session.dismiss(first);
+    expect(session.notices.value.map((notice) => notice.text)).toEqual(['d1 is lost']);
+    session.dismissAlarms();
+    expect(session.notices.value).toEqual([]);
+  });
+
+  it('A message whose time is over is gone', () => {
+    const { world, session } = begin();
+    session.notify('warning', 'once more', 800);
+    world.pass(799);
+    expect(session.notices.value).toHaveLength(1);
+    world.pass(1);
+    expect(session.notices.value).toEqual([]);
+  });
+
+  it.each([
+    ['nothing covers', 0, false, 'Committed: no drone covers now; those that will follow it.'],
+    ['the clock stands', 2, true, 'Committed: the swarm follows once the clock goes on.'],
+    ['the swarm flies', 2, false, 'Committed: the swarm follows.'],
+  ])('After a commit it is said what becomes of it while %s', async (_, active, isPaused, words) => {
+    const { session, socket, sent, editor, heavier } = begin();
+    socket.onmessage?.({ data: snapshotBytes(1, active, isPaused) });
+    editor.stage('heavier', heavier);
+    const done = editor.commit();
+    socket.say({ type: 'ack', id: sent('edit')[0]!['id'], tick: 1, revision: 2 });
+    await done;
+    expect(session.notices.value.map((notice) => notice.text)).toEqual([words]);
+  });
+
+  it('Delete at a corner of a triangle says why it stays, and leaves the whole selected', () => {
+    const { session, socket, editor } = begin();
+    const road = { name: 'road', outline_m: [[0, 0], [1, 0], [0, 1]] }; // prettier-ignore
+    socket.say({ ...targetsOf(2, 1), no_fly: [road] });
+    editor.select({ kind: 'no_fly', name: 'road' }, 1);
+    editor.remove();
+    expect(session.draft.value.no_fly).toHaveLength(1);
+    expect(session.notices.value[0]?.text).toMatch(/needs three corners: this one stays.*Delete removes it/);
+    editor.remove();
+    expect(session.draft.value.no_fly).toEqual([]);
   });
 
   it('Nothing is staged while the connection is silent', () => {
