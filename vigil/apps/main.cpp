@@ -156,9 +156,14 @@ CLI::App* add_replay(CLI::App& program, ReplayOptions& options) {
 }
 
 CLI::App* add_export(CLI::App& program, ExportOptions& options) {
-  CLI::App* command = program.add_subcommand("export", "Write a recording as tables that spreadsheets open (CSV)");
+  CLI::App* command = program.add_subcommand(
+      "export", "Write a recording as tables (CSV), and as maps (GeoJSON, KML) where its mission has a datum");
   command->add_option("DIR", options.directory, "The directory that simulate or serve --record wrote")->required();
-  command->add_option("--out", options.out, "Directory for the tables; must not exist")->required()->check(not_empty());
+  command->add_option("--out", options.out, "Directory for the files; must not exist")->required()->check(not_empty());
+  command
+      ->add_option("--track-step", options.track_step_s,
+                   "Seconds between the points of a drone's track on maps (default 1)")
+      ->check(CLI::Range(0.001, 86400.0));
   command->footer(exit_codes("", false));
   return command;
 }
@@ -239,7 +244,7 @@ int run(int argc, char** argv) {
   if (margins_command->parsed()) return margins(arguments.margins);
   if (report_command->parsed()) return report(arguments.report);
   if (replay_command->parsed()) return replay(arguments.replay);
-  if (export_command->parsed()) return export_tables(arguments.export_of);
+  if (export_command->parsed()) return export_recording(arguments.export_of);
   if (serve_command->parsed()) return serve(arguments.serve, VIGIL_VERSION);
   if (laboratory_command->parsed()) return laboratory(arguments.laboratory);
   if (schema_command->parsed()) return print_schema();

@@ -5,7 +5,9 @@ program is killed, what it had written is sound.
 """
 
 import contextlib
+import csv
 import json
+import math
 import pathlib
 import random
 import resource
@@ -17,6 +19,7 @@ import sys
 import tempfile
 import time
 import unittest
+import xml.etree.ElementTree
 
 from console_client import Program, WebSocket
 
@@ -39,6 +42,15 @@ def ticks_in(database):
     """[(id, message)] of a bag's ticks."""
     return database.execute("SELECT messages.id, data FROM messages JOIN topics ON topics.id = topic_id "
                             "WHERE topics.name = ? ORDER BY messages.id", (FLOWN,)).fetchall()
+
+
+def metres_from_datum(longitude_deg, latitude_deg, datum=(6.12, 44.05)):
+    """To the east and to the north of wildfire.yaml's datum, by the radii of curvature of WGS 84."""
+    equator_m, eccentricity_squared = 6378137.0, 0.00669437999
+    bend = 1 - eccentricity_squared * math.sin(math.radians(datum[1])) ** 2
+    across_m = equator_m / math.sqrt(bend) * math.cos(math.radians(datum[1]))
+    along_m = equator_m * (1 - eccentricity_squared) / bend ** 1.5
+    return across_m * math.radians(longitude_deg - datum[0]), along_m * math.radians(latitude_deg - datum[1])
 
 
 class Place:
@@ -123,6 +135,31 @@ class Recordings(unittest.TestCase):
         self.assertEqual(len((self.folder / "tables" / "ticks.csv").read_text().splitlines()), 501)
         self.assertEqual(len((self.folder / "tables" / "drones.csv").read_text().splitlines()), 1501)
         self.assertEqual(run("export", out, "--out", self.folder / "tables").returncode, 2)
+
+    def test_maps_show_the_places_of_the_tables_on_the_earth(self):
+        out = self.simulated("wildfire.yaml", "--seconds", 20)
+        self.assertEqual(run("export", out, "--out", self.folder / "maps").returncode, 0)
+        features = json.loads((self.folder / "maps" / "tracks.geojson").read_text())["features"]
+        tracks = {f["properties"]["drone"]: f for f in features if f["properties"]["kind"] == "track"}
+        self.assertEqual(len(tracks), 6)
+        with (self.folder / "maps" / "drones.csv").open() as table:
+            rows = [row for row in csv.DictReader(table) if float(row["t_s"]) == 10]
+        for row in rows:
+            track = tracks[row["drone"]]
+            at = track["properties"]["times_s"][0].index(10)
+            east, north = metres_from_datum(*track["geometry"]["coordinates"][0][at])
+            self.assertAlmostEqual(east, float(row["x_m"]), delta=0.1)
+            self.assertAlmostEqual(north, float(row["y_m"]), delta=0.1)
+        kml = xml.etree.ElementTree.parse(self.folder / "maps" / "tracks.kml")
+        coordinates = kml.findall(".//{http://www.google.com/kml/ext/2.2}coord")
+        self.assertEqual(len(coordinates), sum(len(f["properties"]["times_s"][0]) for f in tracks.values()))
+
+    def test_a_mission_without_a_datum_has_no_maps_and_says_why(self):
+        out = self.simulated("paper.yaml", "--seconds", 2)
+        result = run("export", out, "--out", self.folder / "tables")
+        self.assertEqual(result.returncode, 0)
+        self.assertIn("field.datum", result.stderr)
+        self.assertFalse((self.folder / "tables" / "tracks.kml").exists())
 
     def test_a_disk_that_takes_no_more_is_told_at_once_and_the_flight_goes_on(self):
         out = self.folder / "live"

@@ -18,6 +18,7 @@ struct RecordingHead {
   swarm::SwarmParameters parameters;  ///< of the controller, bit for bit
   FlightStart start;
   std::uint64_t keep_every = 1;  ///< only every so manieth tick was kept
+  std::int64_t began_ns = 0;     ///< time of day at the first tick, since 1970; 0: a simulated flight
 };
 
 /// A recorded flight, for reading. What cannot be read throws std::runtime_error with place and advice. One thread at a

@@ -16,10 +16,18 @@
 /// that depend on other values are `optional` here and resolved in mission_setup.hpp.
 namespace vigil::runtime {
 
+/// Where the world frame lies on the earth: its origin, with x to the east and y to the north. WGS 84.
+struct DatumSection {
+  double latitude_deg = 0.0;
+  double longitude_deg = 0.0;
+  friend bool operator==(const DatumSection&, const DatumSection&) = default;
+};
+
 struct FieldSection {
   Vec2 size_m = Vec2::Zero();    ///< L1, L2
   Vec2 origin_m = Vec2::Zero();  ///< the field's corner (0, 0) in the world
   double yaw_rad = 0.0;          ///< from the world's x axis to the field's, counter-clockwise
+  std::optional<DatumSection> datum;
   friend bool operator==(const FieldSection&, const FieldSection&) = default;
 };
 

@@ -76,6 +76,19 @@ void describe(DescriptionVisitor& visitor, FieldSection& field) {
                   .meaning = "the angle from the world's x axis to the field's, counter-clockwise",
                   .unit = "rad"},
                  {-6.3, 6.3}, field.yaw_rad);
+  visitor.optional_section({.name = "datum",
+                            .meaning = "where on the earth the world frame's origin lies, with x to the east and y to "
+                                       "the north; with it, recordings are exported as maps"},
+                           {.is_present = field.datum.has_value(),
+                            .create = [&] { field.datum.emplace(); },
+                            .describe = [&](DescriptionVisitor& v) { describe(v, *field.datum); }});
+}
+
+void describe(DescriptionVisitor& visitor, DatumSection& datum) {
+  visitor.number({.name = "latitude_deg", .meaning = "WGS 84, north positive", .unit = "deg", .is_required = true},
+                 {-89.0, 89.0}, datum.latitude_deg);
+  visitor.number({.name = "longitude_deg", .meaning = "WGS 84, east positive", .unit = "deg", .is_required = true},
+                 {-180.0, 180.0}, datum.longitude_deg);
 }
 
 void describe(DescriptionVisitor& visitor, TargetsSection& targets) {

@@ -118,6 +118,7 @@ class DescriptionVisitor {
 void describe(DescriptionVisitor& visitor, Mission& mission);
 
 void describe(DescriptionVisitor& visitor, FieldSection& field);
+void describe(DescriptionVisitor& visitor, DatumSection& datum);
 void describe(DescriptionVisitor& visitor, TargetsSection& targets);
 void describe(DescriptionVisitor& visitor, ClusterEntry& cluster);
 void describe(DescriptionVisitor& visitor, AreaEntry& area);

@@ -64,6 +64,9 @@ std::string explain_field(const Mission& mission) {
                fmt::format("{:.6g} m x {:.6g} m, {:.6g} m^2", field.size_m.x(), field.size_m.y(), field.size_m.prod()));
   text += line("placed", fmt::format("corner at [{:.6g}, {:.6g}] m in the world, turned by {:.6g} rad",
                                      field.origin_m.x(), field.origin_m.y(), field.yaw_rad));
+  if (field.datum)
+    text += line("on the earth", fmt::format("the world's origin at latitude {:.9g}, longitude {:.9g} degrees",
+                                             field.datum->latitude_deg, field.datum->longitude_deg));
   for (const NoFlyEntry& entry : mission.no_fly) {
     const double area = field::area(polygon_in_field(mission, entry.outline_m));
     text +=
@@ -319,6 +322,11 @@ Json events_json(const Mission& mission) {
   return events;
 }
 
+Json datum_json(const FieldSection& field) {
+  if (!field.datum) return nullptr;
+  return {{"latitude_deg", field.datum->latitude_deg}, {"longitude_deg", field.datum->longitude_deg}};
+}
+
 }  // namespace
 
 std::string explain(const Mission& mission) {
@@ -343,6 +351,7 @@ nlohmann::ordered_json explanation_json(const Mission& mission) {
            {{"size_m", {mission.field.size_m.x(), mission.field.size_m.y()}},
             {"origin_m", {mission.field.origin_m.x(), mission.field.origin_m.y()}},
             {"yaw_rad", mission.field.yaw_rad},
+            {"datum", datum_json(mission.field)},
             {"no_fly", mission.no_fly.size()},
             {"cells", {grid.nx, grid.ny}}}},
           {"attention", attention_json(mission)},

@@ -50,13 +50,15 @@ class Maker {
     mission_.description = dice_.coin() ? dice_.name("\ntwo lines\twith a tab") : "";
     mission_.field = {.size_m = {dice_.between(3.0, 9.0), dice_.between(3.0, 9.0)},
                       .origin_m = {dice_.between(-1e4, 1e4), dice_.between(-5.0, 5.0)},
-                      .yaw_rad = dice_.between(-std::numbers::pi, std::numbers::pi)};
+                      .yaw_rad = dice_.between(-std::numbers::pi, std::numbers::pi),
+                      .datum = {}};
     make_targets();
     make_no_fly();
     make_control();
     make_safety();
     make_simulation();
     make_drones();
+    if (dice_.coin()) mission_.field.datum = {dice_.between(-89.0, 89.0), dice_.between(-180.0, 180.0)};
     return mission_;
   }
 

@@ -74,8 +74,8 @@ void BagRecording::look_through(std::uint32_t number) {
   const File& file = files_[number];
   const TopicIds& topics = file.topics;
   Statement all(*file.database,
-                fmt::format("SELECT id, topic_id, CASE WHEN topic_id IN ({}, {}, {}) THEN data END FROM messages WHERE "
-                            "topic_id IN ({}, {}, {}, {}) ORDER BY id",
+                fmt::format("SELECT id, topic_id, CASE WHEN topic_id IN ({}, {}, {}) THEN data END, timestamp "
+                            "FROM messages WHERE topic_id IN ({}, {}, {}, {}) ORDER BY id",
                             topics.mission, topics.targets, topics.event, topics.tick, topics.mission, topics.targets,
                             topics.event));
   std::int64_t after = 0;
@@ -85,6 +85,7 @@ void BagRecording::look_through(std::uint32_t number) {
       take_note(file, all.number(1), all.bytes(2));
       continue;
     }
+    if (ticks_.empty()) head_.began_ns = all.number(3);
     ticks_.push_back({number, after, id});
     after = id;
   }

@@ -54,6 +54,16 @@ swarm::Command odd_target() {
   return {.kind = swarm::CommandKind::kSetTarget, .drone = {}, .target = target};
 }
 
+TEST(BagRecording, Knows_the_time_of_day_at_which_a_live_flight_began) {
+  const TemporaryFolder simulated;
+  fly(simulated.path(), 3, 1);
+  EXPECT_EQ(BagRecording(simulated.path()).head().began_ns, 0);
+  const TemporaryFolder live;
+  const auto began = std::chrono::nanoseconds(1'760'000'000'250'000'000);
+  fly(live.path(), 3, 1, {.time_of_day = [&] { return began; }});
+  EXPECT_EQ(BagRecording(live.path()).head().began_ns, began.count());
+}
+
 TEST(BagRecording, Gives_back_every_bit_of_what_a_tick_was_given) {
   const TemporaryFolder folder;
   const std::vector<swarm::DroneObservation> observations{odd_observation()};
