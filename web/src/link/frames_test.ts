@@ -120,14 +120,21 @@ describe('binary frames', () => {
       state = (Math.imul(state, 1664525) + 1013904223) >>> 0;
       return Math.floor((state / 2 ** 32) * most);
     };
-    for (let round = 0; round < 20_000; round++) {
-      const bytes = [snapshot(), coverage(), density(3, 2)][round % 3]!;
+    const { stackTraceLimit } = Error;
+    // Most of the time goes into stacks of errors, which nobody reads here.
+    Error.stackTraceLimit = 0;
+    const whole = [snapshot(), coverage(), density(3, 2)];
+    const others: unknown[] = [];
+    for (let round = 0; round < 5_000; round++) {
+      const bytes = whole[round % 3]!.slice(0);
       for (let i = random(4); i >= 0; i--) new DataView(bytes).setUint8(random(bytes.byteLength), random(256));
       try {
         decodeFrame(bytes);
       } catch (error) {
-        expect(error).toBeInstanceOf(FrameError);
+        if (!(error instanceof FrameError)) others.push(error);
       }
     }
+    Error.stackTraceLimit = stackTraceLimit;
+    expect(others).toEqual([]);
   });
 });

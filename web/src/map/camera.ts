@@ -32,13 +32,15 @@ export function boundsOf(points: readonly Point[]): Bounds {
 }
 
 /** Shows all of `bounds`, with `margin` CSS pixels around. */
-export function fit(bounds: Bounds, size: Size, margin: number): Camera {
+export function fit(bounds: Bounds, size: Size, margin: number, rightMargin = margin): Camera {
   const wide = Math.max(bounds.high[0] - bounds.low[0], 1e-6);
   const tall = Math.max(bounds.high[1] - bounds.low[1], 1e-6);
-  const scale = Math.min((size.width - 2 * margin) / wide, (size.height - 2 * margin) / tall);
+  const scale = Math.min((size.width - margin - rightMargin) / wide, (size.height - 2 * margin) / tall);
+  const pixelsPerMetre = clampScale(scale);
+  const aside = (rightMargin - margin) / 2 / pixelsPerMetre;
   return {
-    centre: [(bounds.low[0] + bounds.high[0]) / 2, (bounds.low[1] + bounds.high[1]) / 2],
-    pixelsPerMetre: clampScale(scale),
+    centre: [(bounds.low[0] + bounds.high[0]) / 2 + aside, (bounds.low[1] + bounds.high[1]) / 2],
+    pixelsPerMetre,
   };
 }
 

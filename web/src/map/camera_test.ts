@@ -31,6 +31,13 @@ describe('camera', () => {
     expect(after[1] - before[1]).toBeCloseTo(-5);
   });
 
+  it('With another margin on its right the field is as far from either side as its margins say', () => {
+    const wide = fit(boundsOf([[0, 0], [8, 1]]), size, 30, 70); // prettier-ignore
+    expect(toScreen(wide, size, [0, 0])[0]).toBeCloseTo(30);
+    expect(toScreen(wide, size, [8, 0])[0]).toBeCloseTo(730);
+    expect(toScreen(wide, size, [0, 0.5])[1]).toBeCloseTo(300);
+  });
+
   it('Lengths of the scale bar are 1, 2 or 5 times a power of ten and fit', () => {
     for (const pixelsPerMetre of [0.003, 0.7, 12, 180, 4000]) {
       const length = roundLength({ centre: [0, 0], pixelsPerMetre }, 100);

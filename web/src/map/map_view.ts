@@ -31,6 +31,8 @@ import { drawTargets } from './targets_overlay';
 import { TrailLayer } from './trail_layer';
 
 const kFitMargin = 36;
+/** The map's buttons stand there: a fitted field is beside them, not below. */
+const kFitRightMargin = 72;
 /** Trails of this many crossings of the field's longer side at full speed stay on the map. */
 const kTrailCrossings = 5;
 
@@ -166,7 +168,7 @@ export class MapView {
   fitField(): void {
     const field = this.session.field.value;
     this.staysFitted = true;
-    if (field) this.camera.value = fit(boundsOf(field.corners()), this.size, kFitMargin);
+    if (field) this.camera.value = fit(boundsOf(field.corners()), this.size, kFitMargin, kFitRightMargin);
   }
 
   pan(dx: number, dy: number): void {

@@ -45,7 +45,7 @@ function widths(field: FieldFrame | null, ids: readonly string[]): Record<string
   const id = ids.reduce((most, name) => Math.max(most, name.length), 0);
   // Where a line has no room for both coordinates they stand one over the other.
   return {
-    '--one-place': `${one + 1}ch`,
+    '--one-place': `${one <= 3 ? 2 * one + 2 : one + 1}ch`,
     '--place': `${one <= 5 ? 2 * one + 2 : one + 1}ch`,
     '--id': `${Math.min(id, 40)}ch`,
   };

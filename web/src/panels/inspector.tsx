@@ -37,7 +37,7 @@ export function Orders() {
         <span class="dim">Orders for</span> <strong>{who}</strong>
         {selected.length === 0 && (
           <span class="dim" data-testid="keys-want-selection">
-            ; keys order selected ones only
+            ; keys: only selected ones
           </span>
         )}
       </p>

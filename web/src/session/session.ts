@@ -120,7 +120,9 @@ export class Session {
   notify(kind: NoticeKind, text: string, lastsMs = kind === 'info' ? 4000 : 9000): number {
     const notice = { number: this.nextNotice++, kind, text };
     const alarms = this.notices.value.filter((one) => one.kind === 'alarm').slice(-kMostAlarms);
-    const others = this.notices.value.filter((one) => one.kind !== 'alarm').slice(-kMostOthers);
+    // What is said once more takes the place of what was said before.
+    const isOther = (one: Notice): boolean => one.kind !== 'alarm' && (one.kind !== kind || one.text !== text);
+    const others = this.notices.value.filter(isOther).slice(-kMostOthers);
     this.notices.value = [...alarms, ...others, notice].sort((a, b) => a.number - b.number);
     if (kind !== 'alarm') this.world.after(lastsMs, () => this.dismiss(notice.number));
     return notice.number;

@@ -192,6 +192,12 @@ describe('session', () => {
     expect(session.notices.value).toEqual([]);
   });
 
+  it('What is said twice stands there once', () => {
+    const { session } = begin();
+    for (const text of ['hold', 'hold', 'land', 'hold']) session.notify('info', text);
+    expect(session.notices.value.map((notice) => notice.text)).toEqual(['land', 'hold']);
+  });
+
   it('A message whose time is over is gone', () => {
     const { world, session } = begin();
     session.notify('warning', 'once more', 800);
