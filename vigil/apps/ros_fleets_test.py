@@ -115,6 +115,12 @@ class TenDrones(unittest.TestCase):
         self.assertLess(median, 10.0)
 
 
+def send_to(x_m):
+    """cf1 so far to the west of the middle, cf2 to the east."""
+    command("go_to", drones=["cf1"], place_m=[-x_m, 0.0])
+    command("go_to", drones=["cf2"], place_m=[x_m, 0.05])
+
+
 class TwoDronesThatMeet(unittest.TestCase):
     """One flight, in the order of the tests' numbers."""
 
@@ -138,10 +144,8 @@ class TwoDronesThatMeet(unittest.TestCase):
         operator.hello()
         service("/vigil/take_off_all")
         until(lambda: are("active", "cf1", "cf2"), 15, "two drones cover")
-        side = 1
-        for apart_m in (0.36, 0.32, 0.28, 0.24):
-            command("go_to", drones=["cf1"], place_m=[0.6 * side, 0.0])
-            command("go_to", drones=["cf2"], place_m=[-0.6 * side, 0.05])
+        for apart_m in (0.36, 0.32, 0.28, 0.26):
+            send_to(0.12)
             until(lambda: distance_m("cf1", "cf2") < apart_m, 15, f"two drones {apart_m} m from each other")
             fault("swap cf1 cf2")
             until(lambda: are("tracking_lost", "cf1", "cf2"), 3, "both drones are lost")
@@ -150,8 +154,8 @@ class TwoDronesThatMeet(unittest.TestCase):
             self.assertTrue(are("tracking_lost", "cf1", "cf2"), drones())
             fault("none")
             until(lambda: are("travelling", "cf1", "cf2"), 5, "both drones fly on")
-            until(lambda: distance_m("cf1", "cf2") > 0.5, 15, "they have passed each other")
-            side = -side
+            send_to(0.5)
+            until(lambda: distance_m("cf1", "cf2") > 0.7, 15, "they have parted")
         operator.close()
 
     def test_2_drones_that_nobody_sees_for_five_seconds_land_and_stay_down(self):

@@ -11,11 +11,10 @@ import subprocess
 import sys
 import time
 import unittest
-import xmlrpc.client
 
 from ros_graph import (
     DISPLAY, ENVIRONMENT, HOME, PROGRAM, SOURCE, RUNNING, are, distance_m, drones, echoes, end_everything, fault, judge,
-    publish, service, start, start_roscore, state, stop, tool, until,
+    publish, registered, service, start, start_roscore, state, stop, tool, until,
 )  # fmt: skip
 
 PICTURES = pathlib.Path(sys.argv[3]).resolve()
@@ -38,10 +37,8 @@ SETPOINTS = {f"/{one}/cmd_velocity_world" for one in IDS}
 
 
 def published_topics():
-    """Of the program and the stand-ins, by the master's word."""
-    with xmlrpc.client.ServerProxy(ENVIRONMENT["ROS_MASTER_URI"]) as master:
-        _, _, (publishers, _, _) = master.getSystemState("/ros_test")
-    return {topic for topic, nodes in publishers if OWN_NODES & set(nodes)} - {"/rosout"}
+    """Of the program and the stand-ins."""
+    return {topic for topic, nodes in registered()[0].items() if OWN_NODES & set(nodes)} - {"/rosout"}
 
 
 class Picture:
@@ -205,8 +202,8 @@ class TheLaboratory(unittest.TestCase):
         time.sleep(3)  # for so long there is none
         self.assertTrue(are("active", "cf1", "cf3"), drones())
         start_roscore()
-        until(lambda: "/vigil/density" in tool("rostopic", "list"), 15, "the program's topics")
-        until(lambda: "/cf1/land" in tool("rosservice", "list"), 15, "the stand-in's services")
+        until(lambda: "/vigil/density" in registered()[0], 15, "the program's topics")
+        until(lambda: "/cf1/land" in registered()[1], 15, "the stand-in's services")
         stop("vicon", signal.SIGKILL)
         start("vicon", PROGRAM, "laboratory", MISSION, "--only", "vicon")
         time.sleep(1)  # until the old one is missed
