@@ -1,6 +1,6 @@
 """A ROS graph for tests: roscore, the program and whatever else is started here, all of it on this machine alone.
 
-The command line of the test that imports this: PROGRAM SOURCE_FOLDER ...
+The command line of the test that imports this: PROGRAM SOURCE_FOLDER PICTURES_FOLDER [unittest's arguments]
 """
 
 import concurrent.futures
@@ -11,12 +11,14 @@ import json
 import math
 import os
 import pathlib
+import shutil
 import signal
 import socket
 import subprocess
 import sys
 import tempfile
 import time
+import unittest
 import urllib.request
 import xmlrpc.client
 
@@ -171,7 +173,14 @@ def fault(what):
 def end_everything():
     for name in reversed(list(RUNNING)):
         stop(name)
-    print(f"logs of the {len(list(HOME.glob('*.log')))} programs: {HOME}", file=sys.stderr)
+
+
+def run_tests():
+    """Those of the file that is run, in order; what the programs wrote is kept where one of them fails."""
+    done = unittest.main(argv=sys.argv[:1] + sys.argv[4:], verbosity=2, failfast=True, exit=False).result
+    if not done.wasSuccessful():
+        sys.exit(f"logs of the {len(list(HOME.glob('*.log')))} programs: {HOME}")
+    shutil.rmtree(HOME, ignore_errors=True)
 
 
 def registered():

@@ -14,7 +14,7 @@ import unittest
 
 from ros_graph import (
     DISPLAY, ENVIRONMENT, HOME, PROGRAM, SOURCE, RUNNING, are, distance_m, drones, echoes, end_everything, fault, judge,
-    publish, registered, service, start, start_roscore, state, stop, tool, until,
+    publish, registered, run_tests, service, start, start_roscore, state, stop, tool, until,
 )  # fmt: skip
 
 PICTURES = pathlib.Path(sys.argv[3]).resolve()
@@ -225,4 +225,4 @@ class TheLaboratory(unittest.TestCase):
 
 
 if __name__ == "__main__":
-    unittest.main(argv=sys.argv[:1] + sys.argv[4:], verbosity=2, failfast=True)
+    run_tests()

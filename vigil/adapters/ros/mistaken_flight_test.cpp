@@ -48,6 +48,7 @@ class Pair {
     is_swapped_ = true;
     late_name_ = random_() % 3;
   }
+  void hide(double for_s) { hidden_s_ = {for_s, for_s}; }
   void swap_back() { is_swapped_ = false; }
 
   [[nodiscard]] double apart_m() const { return (places_[0] - places_[1]).norm(); }
@@ -128,6 +129,19 @@ TEST(MistakenFlight, Nobody_is_mistaken_among_pairs_that_pass_each_other_as_near
     for (std::size_t i = 0; i < 2; ++i) ASSERT_LT(pair.age_s(i), 0.25) << "seed " << seed;
   }
   EXPECT_LT(nearest_m, 1.001 * kBodyM);  // some did touch
+}
+
+TEST(MistakenFlight, Nobody_is_mistaken_who_comes_back_into_sight_where_it_flew_or_hovered_meanwhile) {
+  for (const double hidden_s : {0.3, 0.6, 3.0}) {
+    for (unsigned seed = 1; seed <= 1000; ++seed) {
+      Pair pair(seed, kSeesAlways);
+      pair.fly(0.5);
+      pair.hide(hidden_s);
+      pair.fly(hidden_s + 0.3);
+      ASSERT_FALSE(pair.was_anyone_told()) << hidden_s << " s, seed " << seed;
+      for (std::size_t i = 0; i < 2; ++i) ASSERT_LT(pair.age_s(i), 0.1) << hidden_s << " s, seed " << seed;
+    }
+  }
 }
 
 /// What became of a pair whose names were swapped for three seconds.
