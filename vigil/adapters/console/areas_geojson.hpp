@@ -9,8 +9,8 @@
 #include "vigil/runtime/mission.hpp"
 #include "vigil/runtime/target_edit.hpp"
 
-/// Clusters, areas and no-fly polygons as GeoJSON. The coordinates are metres in the world frame, not degrees: a
-/// mission has no place on Earth. The collection says so in its member "vigil".
+/// Clusters, areas and no-fly polygons as GeoJSON. The coordinates are metres in the world frame, not degrees,
+/// whatever datum a mission has. The collection says so in its member "vigil".
 namespace vigil::console {
 
 [[nodiscard]] nlohmann::ordered_json areas_geojson(const runtime::Mission& mission);

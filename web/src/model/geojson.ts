@@ -3,7 +3,7 @@ import { crossesItself, type Point } from './geometry';
 import { apply, find, freeName, type Edit, type Entry, type Kind, type Targets } from './targets';
 
 /**
- * Areas as GeoJSON, in the mission's own world frame (metres, not longitude and latitude: a mission has no datum). The
+ * Areas as GeoJSON, in the mission's own world frame (metres, not longitude and latitude, whatever datum it has). The
  * collection says so in `frame`. Clusters are MultiPoints, areas and no-fly polygons are Polygons with a `kind`.
  */
 export const kFrame = 'local metres, world frame of the mission';
