@@ -137,11 +137,11 @@ def read_snapshot(frame):
 
 
 class Program:
-    """A running `vigil serve` on a free port of this machine."""
+    """A running `vigil serve`, or another command with a console, on a free port of this machine."""
 
-    def __init__(self, vigil, mission, *arguments):
-        command = [vigil, "serve", str(mission), "--port", "0", *map(str, arguments)]
-        self.process = subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+    def __init__(self, vigil, subject, *arguments, command="serve"):
+        words = [vigil, command, str(subject), "--port", "0", *map(str, arguments)]
+        self.process = subprocess.Popen(words, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
         line = self.process.stdout.readline()
         found = re.search(r":(\d+)/", line)
         if not found:

@@ -10,6 +10,7 @@
 #include "vigil/adapters/recording/recording_error.hpp"
 #include "vigil/apps/campaign_command.hpp"
 #include "vigil/apps/check_command.hpp"
+#include "vigil/apps/console_options.hpp"
 #include "vigil/apps/export_command.hpp"
 #include "vigil/apps/failure.hpp"
 #include "vigil/apps/laboratory_command.hpp"
@@ -141,8 +142,24 @@ CLI::App* add_report(CLI::App& program, ReportArguments& arguments) {
   return command;
 }
 
+void add_console_options(CLI::App* command, ConsoleOptions& options) {
+  command->add_option("--port", options.port, "Where the console is served (default 8080; 0: any free port)");
+  command->add_option("--address", options.address,
+                      "The address to listen at (default 127.0.0.1: this machine only); others need --tokens");
+  command->add_option("--name", options.names, "Another name by which browsers come here, e.g. base.example.org")
+      ->take_all();
+  command->add_option("--tokens", options.tokens, "File of lines `ROLE TOKEN`: viewer, operator, safety_pilot")
+      ->check(not_empty());
+  command->add_option("--certificate", options.certificate, "Serve by TLS with this certificate (PEM)")
+      ->check(not_empty());
+  command->add_option("--key", options.key, "The certificate's key (PEM)")->check(not_empty());
+  command->add_option("--page", options.page, "Folder of the console's page instead of the built one")
+      ->check(not_empty());
+}
+
 CLI::App* add_replay(CLI::App& program, ReplayOptions& options) {
-  CLI::App* command = program.add_subcommand("replay", "Fly a recording again, tick by tick, from what it was given");
+  CLI::App* command =
+      program.add_subcommand("replay", "Look at a recording in the console, or fly it again from what it was given");
   command->add_option("DIR", options.directory, "The directory that simulate or serve --record wrote")->required();
   command->add_flag("--verify", options.verify, "Recompute every tick and compare it, bit for bit");
   command->add_option("--from", options.from_s, "Fly on from this moment by other rules, in the mission's simulator")
@@ -150,6 +167,7 @@ CLI::App* add_replay(CLI::App& program, ReplayOptions& options) {
   command->add_option("--out", options.out, "Directory for a recording of the flight that would have been")
       ->check(not_empty());
   add_settings(command, options.settings);
+  add_console_options(command, options.console);
   command->add_flag("--json", options.json, "Print JSON instead of a text");
   command->footer(exit_codes("1 a tick differs or cannot be recomputed, ", false));
   return command;
@@ -173,23 +191,12 @@ CLI::App* add_serve(CLI::App& program, ServeOptions& options) {
   command->add_option("MISSION", options.mission, "The mission file (YAML)")->required();
   command->add_option("--fleet", options.fleet,
                       "Which drones: sim (simulated, the default), ros (Crazyswarm over ROS 1; implies --ros)");
-  command->add_option("--port", options.port, "Where the console is served (default 8080; 0: any free port)");
-  command->add_option("--address", options.address,
-                      "The address to listen at (default 127.0.0.1: this machine only); others need --tokens");
-  command->add_option("--name", options.names, "Another name by which browsers come here, e.g. base.example.org")
-      ->take_all();
-  command->add_option("--tokens", options.tokens, "File of lines `ROLE TOKEN`: viewer, operator, safety_pilot")
-      ->check(not_empty());
-  command->add_option("--certificate", options.certificate, "Serve by TLS with this certificate (PEM)")
-      ->check(not_empty());
-  command->add_option("--key", options.key, "The certificate's key (PEM)")->check(not_empty());
+  add_console_options(command, options.console);
   command->add_option("--record", options.record, "Directory for a recording; must not exist")->check(not_empty());
   add_recording_options(command, options.recording);
   command->add_option("--state", options.state, "Directory from which a restarted program goes on where it was")
       ->check(not_empty());
   command->add_flag("--afresh", options.afresh, "Forget what an earlier run left in --state");
-  command->add_option("--page", options.page, "Folder of the console's page instead of the built one")
-      ->check(not_empty());
   command->add_flag("--ros", options.ros, "Show it over ROS 1 (RViz) as well, and take targets from there");
   command->add_flag("--ros-tf", options.ros_tf, "With --fleet ros: positions from /tf instead of vicon_bridge");
   command->add_option("--ros-role", options.ros_role,
@@ -243,7 +250,7 @@ int run(int argc, char** argv) {
   if (check_command->parsed()) return check(arguments.check);
   if (margins_command->parsed()) return margins(arguments.margins);
   if (report_command->parsed()) return report(arguments.report);
-  if (replay_command->parsed()) return replay(arguments.replay);
+  if (replay_command->parsed()) return replay(arguments.replay, VIGIL_VERSION);
   if (export_command->parsed()) return export_recording(arguments.export_of);
   if (serve_command->parsed()) return serve(arguments.serve, VIGIL_VERSION);
   if (laboratory_command->parsed()) return laboratory(arguments.laboratory);

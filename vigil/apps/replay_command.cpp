@@ -13,6 +13,7 @@
 #include "vigil/apps/fleet_choice.hpp"
 #include "vigil/apps/progress_bar.hpp"
 #include "vigil/apps/recording_choice.hpp"
+#include "vigil/apps/replay_console.hpp"
 #include "vigil/apps/results_folder.hpp"
 #include "vigil/runtime/fly_on.hpp"
 #include "vigil/runtime/mission_file.hpp"
@@ -153,9 +154,15 @@ int print_two_flights(const ReplayOptions& options, runtime::ReplayedFlight& fli
 
 }  // namespace
 
-int replay(const ReplayOptions& options) {
-  if (options.verify == options.from_s.has_value())
-    throw Failure(kBadInput, "replay: give either --verify, or --from T with --set key=value");
+int replay(const ReplayOptions& options, const std::string& version) {
+  if (options.verify && options.from_s)
+    throw Failure(kBadInput, "replay: give either --verify, or --from T with --set key=value, or neither");
+  const bool shows = !options.verify && !options.from_s;
+  if (shows && (options.json || !options.settings.empty() || !options.out.empty()))
+    throw Failure(kBadInput,
+                  "replay: --set and --out belong to --from T, --json to --verify or --from; give one of these, or "
+                  "leave them out to see the recording in a browser");
+  if (shows) return replay_in_console(options.directory, options.console, version);
   ChosenRecording chosen = choose_recording(options.directory);
   const runtime::Mission& mission = chosen.mission;
   runtime::ReplayedFlight flight(std::move(chosen.recording));

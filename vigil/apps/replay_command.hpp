@@ -5,6 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "vigil/apps/console_options.hpp"
+
 namespace vigil::apps {
 
 /// What `vigil replay` is asked to do.
@@ -15,12 +17,13 @@ struct ReplayOptions {
   std::vector<std::string> settings;  ///< key=value, from there on
   std::filesystem::path out;          ///< for the flight that would have been; empty: it is not recorded
   bool json = false;
+  ConsoleOptions console;  ///< without verify and from_s
 };
 
 /// `vigil replay --verify`: recomputes every tick of a recording and compares what it decided, bit for bit. kDone where
 /// all of it is the same, kCheckFailed at the first difference, or where the recording cannot be recomputed to its end.
 /// `--from`: flies on from a moment by other rules, and says what happened and what would have.
-/// Throws Failure, RecordingError, MissionError.
-[[nodiscard]] int replay(const ReplayOptions& options);
+/// With neither: serves the console on the recording, until Ctrl-C. Throws Failure, RecordingError, MissionError.
+[[nodiscard]] int replay(const ReplayOptions& options, const std::string& version);
 
 }  // namespace vigil::apps

@@ -34,13 +34,7 @@ void check_options(const ServeOptions& options) {
   if (options.fleet != "sim" && options.fleet != "ros")
     throw Failure(kBadInput, fmt::format("--fleet {}: is not known; must be: sim (simulated drones), ros (Crazyswarm)",
                                          runtime::on_one_line(options.fleet, 60)));
-  if (!console::is_loopback(options.address) && options.tokens.empty())
-    throw Failure(kBadInput,
-                  fmt::format("--address {}: others can reach it, so --tokens FILE is needed, with lines of a role "
-                              "(viewer, operator, safety_pilot) and a token; make one with: openssl rand -hex 24",
-                              runtime::on_one_line(options.address, 60)));
-  if (options.certificate.empty() != options.key.empty())
-    throw Failure(kBadInput, "--certificate and --key belong together; give both, or none");
+  check_console(options.console);
   if (!console::role_of(options.ros_role))
     throw Failure(kBadInput, fmt::format("--ros-role {}: is not known; must be: viewer, operator",
                                          runtime::on_one_line(options.ros_role, 60)));
@@ -107,26 +101,6 @@ std::optional<runtime::SavedFlight> left_by_an_earlier_run(const runtime::Flight
   return saved;
 }
 
-fs::path built_page() {
-  std::error_code error;
-  const fs::path installed = fs::read_symlink("/proc/self/exe", error).parent_path() / "../share/vigil/web";
-  return fs::is_directory(installed, error) ? installed : fs::path(VIGIL_PAGE_DIR);
-}
-
-console::ServerOptions server_options(const ServeOptions& options, const std::string& version) {
-  console::ServerOptions result;
-  result.address = options.address;
-  result.port = options.port;
-  result.names = options.names;
-  if (!options.tokens.empty()) result.tokens = console::Tokens::read(options.tokens);
-  result.certificate = options.certificate;
-  result.key = options.key;
-  result.page = options.page.empty() ? built_page() : options.page;
-  result.program = "vigil " + version;
-  result.recording_folder = options.record.string();
-  return result;
-}
-
 /// Whether the system will give the control thread real-time priority: a thread of its own tries.
 bool ticks_may_come_first() {
   bool may = false;
@@ -163,7 +137,8 @@ int run(const ServeOptions& options, const std::string& version) {
   }
   std::optional<RosSide> ros;
   if (options.ros || options.fleet == "ros") ros.emplace(*console::role_of(options.ros_role));
-  console::ServerOptions served = server_options(options, version);
+  console::ServerOptions served = server_options(options.console, version);
+  served.recording_folder = options.record.string();
   if (ros) served.overhear = [&ros](const console::DeskNews& news) { ros->overhear(news); };
   std::string url;
   served.ready = [&] { announce(options, mission.name, url, saved.has_value()); };

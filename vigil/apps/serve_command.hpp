@@ -1,10 +1,10 @@
 #pragma once
 
-#include <cstdint>
 #include <filesystem>
 #include <string>
 #include <vector>
 
+#include "vigil/apps/console_options.hpp"
 #include "vigil/apps/recording_options.hpp"
 
 namespace vigil::apps {
@@ -12,17 +12,11 @@ namespace vigil::apps {
 struct ServeOptions {
   std::filesystem::path mission;
   std::string fleet = "sim";
-  std::string address = "127.0.0.1";
-  std::uint16_t port = 8080;          ///< 0: any that is free
-  std::vector<std::string> names;     ///< by which browsers come here, beside the address
-  std::filesystem::path tokens;       ///< empty: no login
-  std::filesystem::path certificate;  ///< empty: no TLS
-  std::filesystem::path key;
+  ConsoleOptions console;
   std::filesystem::path record;  ///< empty: nothing is recorded
   RecordingOptions recording;
   std::filesystem::path state;        ///< empty: nothing is kept for a restart
   bool afresh = false;                ///< forget what an earlier run left
-  std::filesystem::path page;         ///< empty: where the build or the installation has it
   std::vector<std::string> settings;  ///< key=value
   bool ros_tf = false;                ///< fleet "ros": positions by tf instead of vicon_bridge
   bool ros = false;                   ///< show it over ROS, and take wishes from there; always so where fleet is "ros"

@@ -10,6 +10,7 @@
 #include "vigil/runtime/controller_setup.hpp"
 #include "vigil/runtime/flight_audit.hpp"
 #include "vigil/runtime/flight_script.hpp"
+#include "vigil/runtime/recorded_targets.hpp"
 
 namespace vigil::runtime {
 namespace {
@@ -23,24 +24,6 @@ bool is_same(const swarm::DroneObservation& a, const swarm::DroneObservation& b)
   return is_same(a.position, b.position) && is_same(a.velocity, b.velocity) && is_same(a.height_m, b.height_m) &&
          is_same(a.age_s, b.age_s) && is_same(a.link_age_s, b.link_age_s) && is_same(a.battery, b.battery) &&
          a.mode == b.mode;
-}
-
-/// The mission with the targets of a moment; what a recording does not say of them is as it was at the beginning.
-Mission with_targets(Mission mission, const RecordedTargets& now) {
-  const TargetsSection before = mission.targets;
-  mission.targets.clusters = now.clusters;
-  for (ClusterEntry& cluster : mission.targets.clusters) {
-    const auto known = std::ranges::find(before.clusters, cluster.name, &ClusterEntry::name);
-    if (known != before.clusters.end()) cluster.revisit_s = known->revisit_s;
-  }
-  mission.targets.areas = now.areas;
-  for (AreaEntry& area : mission.targets.areas) {
-    const auto known = std::ranges::find(before.areas, area.name, &AreaEntry::name);
-    if (known == before.areas.end()) continue;
-    area.revisit_s = known->revisit_s;
-    area.soft_edge_m = known->soft_edge_m;
-  }
-  return mission;
 }
 
 /// What brings a new controller to what an old one wanted of a drone; nothing where it covers or is on the ground.
@@ -175,9 +158,7 @@ class FlyingOn {
   }
 
   [[nodiscard]] Mission targets_at(double time_s) const {
-    const auto all = flight_.recording().targets();
-    const auto after = std::ranges::upper_bound(all, time_s, {}, &RecordedTargets::time_s);
-    return after == all.begin() ? mission_ : with_targets(mission_, *std::prev(after));
+    return mission_at(mission_, flight_.recording().targets(), time_s);
   }
 
   [[nodiscard]] std::vector<swarm::Command> wishes_so_far() const {

@@ -26,11 +26,11 @@ void GroundPicture::note_way(std::size_t drone, const Vec2& from, const Vec2& to
   last_places_[drone] = to;
 }
 
-std::vector<DeadlineChange> GroundPicture::look(const LiveFrame& frame) {
-  const double time_s = frame.snapshot.time_s;
+std::vector<DeadlineChange> GroundPicture::look(const swarm::Snapshot& snapshot) {
+  const double time_s = snapshot.time_s;
   ways_.clear();
-  for (std::size_t i = 0; i < frame.snapshot.drones.size(); ++i) {
-    const swarm::DroneSnapshot& drone = frame.snapshot.drones[i];
+  for (std::size_t i = 0; i < snapshot.drones.size(); ++i) {
+    const swarm::DroneSnapshot& drone = snapshot.drones[i];
     if (drone.activity == swarm::Activity::kActive)
       note_way(i, last_places_[i].value_or(drone.position), drone.position, time_s);
     else

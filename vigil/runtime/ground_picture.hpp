@@ -20,8 +20,8 @@ class GroundPicture {
 
   /// From time_s on other targets are meant. phi_k: their coefficients.
   void retarget(const Mission& mission, const ergodic::Coefficients& phi_k, double time_s);
-  /// Takes in a frame that is newer than the last one. Deadlines that changed are in the result.
-  [[nodiscard]] std::vector<DeadlineChange> look(const LiveFrame& frame);
+  /// Takes in a tick that is newer than the last one. Deadlines that changed are in the result.
+  [[nodiscard]] std::vector<DeadlineChange> look(const swarm::Snapshot& snapshot);
 
   [[nodiscard]] std::vector<AreaState> areas(const LiveFrame& frame) const;
   [[nodiscard]] const AreaWatch& watch() const { return watch_; }

@@ -19,7 +19,7 @@ class GroundPictureTest : public ::testing::Test {
     for (swarm::DroneSnapshot& drone : frame.snapshot.drones) drone.activity = swarm::Activity::kGrounded;
     frame.snapshot.drones[0].position = place;
     if (is_active) frame.snapshot.drones[0].activity = swarm::Activity::kActive;
-    return picture.look(frame);
+    return picture.look(frame.snapshot);
   }
   AreaState state(std::size_t n) const { return picture.areas(frame).at(n); }
 

@@ -18,11 +18,14 @@ namespace vigil::runtime {
 
 /// What somebody asks of a live flight. A ticket other than 0 is answered by one LiveEvent::Kind::kAnswer.
 struct LiveCommand {
-  enum class Kind : std::uint8_t { kSwarm, kSetSpeed, kPause, kResumeClock };
+  /// The last two are for recordings alone.
+  enum class Kind : std::uint8_t { kSwarm, kSetSpeed, kPause, kResumeClock, kSeek, kStep };
   Kind kind = Kind::kSwarm;
   swarm::Command swarm;        ///< kSwarm
   std::uint64_t revision = 0;  ///< kSwarm with kSetTarget: of the mission's targets
   double speed = 1.0;          ///< kSetSpeed: factor of real time, > 0
+  double seek_s = 0.0;         ///< kSeek: to the last tick at this mission time or before, or the first
+  std::int64_t steps = 0;      ///< kStep: so many kept ticks on, or back where negative; pauses
   std::uint64_t ticket = 0;    ///< shared by the commands that one message became; they stand next to each other
   bool is_last_of_ticket = true;
 };

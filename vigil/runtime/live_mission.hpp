@@ -1,13 +1,18 @@
 #pragma once
 
+#include <cstddef>
+#include <cstdint>
 #include <functional>
 #include <memory>
 #include <thread>
+#include <utility>
+#include <vector>
 
 #include "vigil/runtime/control_loop.hpp"
 #include "vigil/runtime/fleet.hpp"
 #include "vigil/runtime/mission.hpp"
 #include "vigil/runtime/queued_recorder.hpp"
+#include "vigil/runtime/shown_flight.hpp"
 
 namespace vigil::runtime {
 
@@ -18,7 +23,7 @@ using Drive = std::function<void(const std::stop_token& stop, ControlLoop& loop)
 void drive_in_real_time(const std::stop_token& stop, ControlLoop& loop);
 
 /// A mission that is being flown by a control thread of its own.
-class LiveMission {
+class LiveMission final : public ShownFlight {
  public:
   /// `world`: the fleet where it is a simulated one, otherwise null. `epoch` tells missions apart that one program
   /// flies one after the other. The recorder may be null.
@@ -26,7 +31,7 @@ class LiveMission {
               std::unique_ptr<QueuedRecorder> recorder, const FlightStart& start, std::uint32_t epoch,
               Drive drive = drive_in_real_time);
   /// Ends the control thread.
-  ~LiveMission();
+  ~LiveMission() override;
   LiveMission(const LiveMission&) = delete;
   LiveMission& operator=(const LiveMission&) = delete;
 
@@ -36,12 +41,19 @@ class LiveMission {
   /// the second time.
   void finish();
 
-  [[nodiscard]] const Mission& mission() const noexcept { return mission_; }  ///< as it was at first
-  [[nodiscard]] std::uint32_t epoch() const noexcept { return epoch_; }
   [[nodiscard]] ControlLoop& loop() noexcept { return loop_; }
   [[nodiscard]] const ControlLoop& loop() const noexcept { return loop_; }
-  [[nodiscard]] const QueuedRecorder* recorder() const noexcept { return recorder_.get(); }
-  [[nodiscard]] QueuedRecorder* recorder() noexcept { return recorder_.get(); }
+
+  [[nodiscard]] const Mission& mission() const noexcept override { return mission_; }
+  [[nodiscard]] std::uint32_t epoch() const noexcept override { return epoch_; }
+  [[nodiscard]] bool is_recording() const noexcept override { return false; }
+  [[nodiscard]] bool submit(std::vector<LiveCommand> commands) override { return loop_.submit(std::move(commands)); }
+  bool read(LiveFrame& into, std::size_t& version) const override { return loop_.read(into, version); }
+  bool read(ClockState& into, std::size_t& version) const override { return loop_.read(into, version); }
+  [[nodiscard]] const std::vector<LiveEvent>& take_events() override { return loop_.take_events(); }
+  [[nodiscard]] std::size_t lost_events() const override { return loop_.lost_events(); }
+  [[nodiscard]] QueuedRecorder* recorder() noexcept override { return recorder_.get(); }
+  [[nodiscard]] const QueuedRecorder* recorder() const noexcept override { return recorder_.get(); }
 
  private:
   Mission mission_;

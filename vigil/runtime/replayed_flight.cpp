@@ -5,20 +5,13 @@
 #include <utility>
 
 namespace vigil::runtime {
-namespace {
-
-constexpr std::uint64_t kFirstApart = 256;
-constexpr std::size_t kMostCheckpoints = 64;
-
-}  // namespace
 
 ReplayedFlight::ReplayedFlight(std::unique_ptr<FlightRecording> recording)
     : recording_(std::move(recording)),
       state_(first_state()),
       recollection_(recording_->head()),
       recorded_(recording_->head().parameters.drones),
-      snapshot_(recording_->head().parameters.drones),
-      apart_(kFirstApart) {
+      snapshot_(recording_->head().parameters.drones) {
   keep_checkpoint();
 }
 
@@ -31,14 +24,8 @@ std::optional<swarm::SwarmState> ReplayedFlight::first_state() const {
   return state;
 }
 
-/// At even distances; where they become too many, every other one goes.
 void ReplayedFlight::keep_checkpoint() {
-  const bool is_newer = checkpoints_.empty() || next_ >= checkpoints_.back().number + apart_;
-  if (!is_newer) return;
-  checkpoints_.push_back({next_, state_, recollection_});
-  if (checkpoints_.size() <= kMostCheckpoints) return;
-  apart_ *= 2;
-  std::erase_if(checkpoints_, [this](const Checkpoint& one) { return one.number % apart_ != 0; });
+  checkpoints_.offer(next_, [this] { return Checkpoint{state_, recollection_}; });
 }
 
 void ReplayedFlight::recompute() {
@@ -59,20 +46,24 @@ bool ReplayedFlight::step() {
   return true;
 }
 
-void ReplayedFlight::go_back_to(const Checkpoint& checkpoint) {
+void ReplayedFlight::go_to(const Checkpoints<Checkpoint>::One& checkpoint) {
   next_ = checkpoint.number;
-  state_ = checkpoint.state;
-  recollection_ = checkpoint.recollection;
+  state_ = checkpoint.value.state;
+  recollection_ = checkpoint.value.recollection;
 }
 
-void ReplayedFlight::seek(std::uint64_t number) {
+void ReplayedFlight::approach(std::uint64_t number) {
   number = std::min(number, tick_count());
   if (number == next_) return;
   // What the newest tick shows must be computed, not only its state: from one tick before.
   const std::uint64_t before = number == 0 ? 0 : number - 1;
-  const auto after = std::ranges::upper_bound(checkpoints_, before, {}, &Checkpoint::number);
-  const Checkpoint& nearest = *std::prev(after);
-  if (before < next_ || nearest.number > next_) go_back_to(nearest);
+  const auto& nearest = checkpoints_.before(before);
+  if (before < next_ || nearest.number > next_) go_to(nearest);
+}
+
+void ReplayedFlight::seek(std::uint64_t number) {
+  number = std::min(number, tick_count());
+  approach(number);
   while (next_ < number) step();
 }
 

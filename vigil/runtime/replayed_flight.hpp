@@ -3,8 +3,8 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
-#include <vector>
 
+#include "vigil/runtime/checkpoints.hpp"
 #include "vigil/runtime/flight_recording.hpp"
 #include "vigil/runtime/recollection.hpp"
 #include "vigil/runtime/recorded_tick.hpp"
@@ -30,6 +30,9 @@ class ReplayedFlight {
   bool step();
   /// So that number() == `number`, at most tick_count(). Takes as long as the ticks since the next copy before it.
   void seek(std::uint64_t number);
+  /// The first part of seek(): goes to the copy from which step() comes to `number` soonest, or stays. Afterwards
+  /// number() < `number`, but for 0 and where it was reached already.
+  void approach(std::uint64_t number);
 
   // Of the newest tick. Precondition: number() > 0.
   /// As recomputed; where that is not possible, as recorded.
@@ -47,14 +50,13 @@ class ReplayedFlight {
  private:
   /// A state to go on from.
   struct Checkpoint {
-    std::uint64_t number = 0;
     std::optional<swarm::SwarmState> state;
     Recollection recollection;
   };
 
   [[nodiscard]] std::optional<swarm::SwarmState> first_state() const;
   void keep_checkpoint();
-  void go_back_to(const Checkpoint& checkpoint);
+  void go_to(const Checkpoints<Checkpoint>::One& checkpoint);
   void recompute();
 
   std::unique_ptr<FlightRecording> recording_;
@@ -63,8 +65,7 @@ class ReplayedFlight {
   RecordedTick recorded_;
   swarm::Snapshot snapshot_;
   std::uint64_t next_ = 0;
-  std::uint64_t apart_;  ///< ticks between two checkpoints
-  std::vector<Checkpoint> checkpoints_;
+  Checkpoints<Checkpoint> checkpoints_;
 };
 
 }  // namespace vigil::runtime

@@ -4,7 +4,7 @@ import { createInterface } from 'node:readline';
 import { fileURLToPath } from 'node:url';
 
 const kRoot = fileURLToPath(new URL('../..', import.meta.url));
-const kProgram = process.env['VIGIL_PROGRAM'] ?? `${kRoot}/build/release/vigil/apps/vigil`;
+export const kProgram = process.env['VIGIL_PROGRAM'] ?? `${kRoot}/build/release/vigil/apps/vigil`;
 
 export interface Program {
   readonly address: string;
@@ -20,6 +20,11 @@ export async function serve(mission: string, options: readonly string[] = [], po
   const page = `${kRoot}/web/dist`;
   const file = mission.includes('/') ? mission : `${kRoot}/missions/${mission}`;
   return start(kProgram, ['serve', file, '--port', String(port), '--page', page, ...options]);
+}
+
+/** `vigil replay` of a recorded flight's folder. */
+export async function replay(folder: string): Promise<Program> {
+  return start(kProgram, ['replay', folder, '--port', '0', '--page', `${kRoot}/web/dist`]);
 }
 
 /** Any command that serves the console and prints its address. */

@@ -7,6 +7,7 @@ import './look/top_bar.css';
 import './look/panels.css';
 import './look/overlays.css';
 import './look/foresight.css';
+import './look/replay.css';
 import type { Socket, World } from './link/console_link';
 import type { MapView } from './map/map_view';
 import { AppContext, type App } from './panels/app_context';

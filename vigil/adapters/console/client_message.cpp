@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <limits>
 #include <utility>
 
@@ -22,6 +23,7 @@ constexpr std::size_t kMostDrones = 100'000;
 constexpr std::size_t kMostIdBytes = 64;
 constexpr std::size_t kMostEditing = 20;
 constexpr std::size_t kMostReasonBytes = 400;
+constexpr double kMostSteps = 1e6;
 
 struct WishWord {
   std::string_view word;
@@ -122,6 +124,19 @@ SetSpeed speed_in(const JsonReader& reader) {
   return {reader.number("factor")};
 }
 
+Seek seek_in(const JsonReader& reader) {
+  reader.allow_only({"type", "id", "time_s"});
+  return {reader.number("time_s")};
+}
+
+StepTicks step_in(const JsonReader& reader) {
+  reader.allow_only({"type", "id", "ticks"});
+  const double ticks = reader.number("ticks");
+  if (ticks != std::trunc(ticks) || ticks == 0.0 || !(std::abs(ticks) <= kMostSteps))
+    reader.refuse("ticks", fmt::format("must be a whole number in [-{0}, {0}], not 0", kMostSteps));
+  return {static_cast<std::int64_t>(ticks)};
+}
+
 template <typename Body>
 Body nothing_in(const JsonReader& reader) {
   reader.allow_only({"type", "id"});
@@ -143,6 +158,8 @@ std::optional<MessageBody> body_in(const JsonReader& reader, std::string_view ty
   if (type == "set_speed") return speed_in(reader);
   if (type == "pause") return nothing_in<Pause>(reader);
   if (type == "resume_clock") return nothing_in<ResumeClock>(reader);
+  if (type == "seek") return seek_in(reader);
+  if (type == "step") return step_in(reader);
   if (type == "load_mission") return mission_in(reader);
   if (type == "land_all") {
     reader.allow_only({"type", "id"});

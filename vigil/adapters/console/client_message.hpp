@@ -58,12 +58,20 @@ struct SetSpeed {
 };
 struct Pause {};
 struct ResumeClock {};
+/// Recordings alone.
+struct Seek {
+  double time_s = 0.0;  ///< to the last tick then or before
+};
+/// Recordings alone.
+struct StepTicks {
+  std::int64_t ticks = 1;  ///< on, or back where negative; never 0
+};
 struct LoadMission {
   std::string yaml;
 };
 
 using MessageBody = std::variant<Hello, Ping, PreviewDensity, Preview, Editing, DroneWish, Edit, Undo, Redo,
-                                 StartAfresh, SetSpeed, Pause, ResumeClock, LoadMission>;
+                                 StartAfresh, SetSpeed, Pause, ResumeClock, Seek, StepTicks, LoadMission>;
 
 struct ClientMessage {
   std::optional<std::uint64_t> id;  ///< always there but for Hello

@@ -2,12 +2,11 @@
 
 #include <utility>
 
+#include "vigil/adapters/console/density_picture.hpp"
 #include "vigil/adapters/console/frames.hpp"
 #include "vigil/adapters/console/preview_job.hpp"
 #include "vigil/adapters/console/server_messages.hpp"
-#include "vigil/core/field/density.hpp"
 #include "vigil/runtime/controller_setup.hpp"
-#include "vigil/runtime/grid_of.hpp"
 #include "vigil/runtime/mission_file.hpp"
 #include "vigil/runtime/mission_setup.hpp"
 #include "vigil/runtime/mission_writer.hpp"
@@ -15,19 +14,12 @@
 namespace vigil::console {
 namespace {
 
-constexpr Eigen::Index kDensityCells = 160;  ///< of a picture's longer side
 constexpr Eigen::Index kPreviewCells = 96;
 constexpr std::size_t kRecentTargets = 64;
 constexpr int kLooksASave = 5;
 constexpr double kSaveEveryS = 1.0;  ///< mission time, at most
 
 SharedBytes shared(std::string bytes) { return std::make_shared<const std::string>(std::move(bytes)); }
-
-std::string density_of(const runtime::Mission& mission, Eigen::Index cells, const DensityContext& context) {
-  const field::Field field = runtime::monitored_field(mission);
-  const field::GridShape shape = runtime::grid_of(field, cells);
-  return density_frame(field, field::rasterise(field, runtime::importance(mission), shape), context);
-}
 
 /// Where the drones of a flight are before its first tick.
 std::vector<runtime::SavedFlight::Drone> first_drones(const runtime::Mission& mission) {
@@ -79,8 +71,9 @@ void Desk::retarget(std::uint64_t ticket) {
   if (ticket != 0) tell_(DeskAcceptance{ticket});
   const runtime::Mission& mission = desk_->mission();
   const DensityContext context{.epoch = epoch_, .revision = static_cast<std::uint32_t>(desk_->revision())};
-  tell_(TargetsNews{shared(in_text(targets_json(*desk_, epoch_))), shared(density_of(mission, kDensityCells, context)),
-                    desk_->revision(), desk_->by(), desk_->what(), mission});
+  tell_(TargetsNews{shared(in_text(targets_json(*desk_, epoch_))),
+                    shared(density_picture(mission, kDensityCells, context)), desk_->revision(), desk_->by(),
+                    desk_->what(), mission});
   recent_targets_.push_back(runtime::coverage_target(mission, ground_->basis()));
   if (recent_targets_.size() > kRecentTargets) recent_targets_.pop_front();
   runtime::LiveCommand command;
@@ -127,7 +120,7 @@ void Desk::preview(std::uint64_t ticket, const std::atomic<std::uint64_t>& newes
                                .is_preview = true,
                                .request = request};
   tell_(DeskAnswer{ticket, desk_->revision(),
-                   shared(density_of(std::get<runtime::Mission>(draft), kPreviewCells, context))});
+                   shared(density_picture(std::get<runtime::Mission>(draft), kPreviewCells, context))});
 }
 
 void Desk::look_ahead(std::uint64_t ticket, std::uint64_t asker, const Preview& request,
@@ -173,7 +166,7 @@ void Desk::look() {
   if (!flight_->loop().read(*frame_, frame_version_)) return;
   note_drones();
   GroundNews news;
-  news.deadlines = ground_->look(*frame_);
+  news.deadlines = ground_->look(frame_->snapshot);
   news.areas = ground_->areas(*frame_);
   news.coverage = shared(coverage_frame(ground_->basis().field(), *frame_, epoch_));
   news.age = shared(age_frame(ground_->seen(), frame_->snapshot.time_s, epoch_));

@@ -12,11 +12,13 @@
 
 #include "vigil/adapters/console/client_message.hpp"
 #include "vigil/adapters/console/server_messages.hpp"
+#include "vigil/adapters/console/trail_ring.hpp"
 #include "vigil/runtime/ground_picture.hpp"
 #include "vigil/runtime/live_mission.hpp"
 #include "vigil/runtime/mission_desk.hpp"
 #include "vigil/runtime/preview_thread.hpp"
 #include "vigil/runtime/saved_flight.hpp"
+#include "vigil/runtime/shown_flight.hpp"
 
 namespace vigil::console {
 
@@ -28,6 +30,18 @@ struct FlightNews {
   std::shared_ptr<runtime::LiveMission> flight;
   SharedBytes mission;  ///< the message
   bool is_restored = false;
+};
+/// A recording is shown from now on.
+struct RecordingNews {
+  std::shared_ptr<runtime::ShownFlight> recording;
+  SharedBytes mission;  ///< the message
+};
+/// What led to the tick of a recording that is shown.
+struct HistoryNews {
+  ReplayState state;
+  std::vector<ConsoleEvent> events;  ///< those that came to what was told, or all
+  bool is_afresh = false;            ///< all of it: what was told before is of elsewhere
+  std::optional<TrailRing> trails;   ///< there where is_afresh
 };
 /// Other targets hold from now on.
 struct TargetsNews {
@@ -73,8 +87,8 @@ struct PreviewNews {
 struct DeskTrouble {
   std::string text;
 };
-using DeskNews = std::variant<FlightNews, TargetsNews, GroundNews, DeskRefusal, DeskAcceptance, DeskAnswer, PreviewNews,
-                              DeskTrouble>;
+using DeskNews = std::variant<FlightNews, RecordingNews, HistoryNews, TargetsNews, GroundNews, DeskRefusal,
+                              DeskAcceptance, DeskAnswer, PreviewNews, DeskTrouble>;
 
 /// Everything of a live flight that takes its time and must not hold up the control thread or the sockets: editing
 /// targets, drawing densities, keeping the picture of the ground, saving the state. All on one thread, the desk's.

@@ -9,6 +9,7 @@
 #include "vigil/adapters/console/seats.hpp"
 #include "vigil/runtime/mission_error.hpp"
 #include "vigil/runtime/mission_setup.hpp"
+#include "vigil/runtime/replay_loop.hpp"
 
 namespace vigil::console {
 namespace {
@@ -26,6 +27,24 @@ template <typename... Cases>
 struct Overloaded : Cases... {
   using Cases::operator()...;
 };
+
+bool is_of_the_clock(const MessageBody& body) {
+  return std::holds_alternative<SetSpeed>(body) || std::holds_alternative<Pause>(body) ||
+         std::holds_alternative<ResumeClock>(body);
+}
+
+bool is_of_recordings(const MessageBody& body) {
+  return std::holds_alternative<Seek>(body) || std::holds_alternative<StepTicks>(body);
+}
+
+/// Why a flight of this kind cannot follow a message; empty where it can.
+std::string_view unfit(const MessageBody& body, bool is_recording) {
+  if (!is_recording && is_of_recordings(body))
+    return "this is a flight, not a recording: time goes on in it; `vigil replay DIR` shows a recording";
+  if (is_recording && !is_of_recordings(body) && !is_of_the_clock(body))
+    return "this is a recording: what happened in it cannot be changed; `vigil serve MISSION` flies";
+  return {};
+}
 
 std::string name_or(const std::string& name, std::uint32_t client) {
   return name.empty() ? fmt::format("operator {}", client) : name;
@@ -173,6 +192,8 @@ void Hub::execute(const ClientMessage& message, const Author& author, Reply repl
     return reply(ack_json(id, {frame_ ? frame_->snapshot.tick : 0, false, {}, {}}));
   }
   if (!flight_) return reply(refused_json({id, "not_now", "no mission is being flown yet"}));
+  if (const std::string_view reason = unfit(message.body, flight_->is_recording()); !reason.empty())
+    return reply(refused_json({id, "not_now", std::string(reason)}));
   if (waiting_.size() >= kMostWaiting) return reply(refused_json({id, "busy", "too many commands wait; try again"}));
   const std::uint64_t ticket = expect(message, author, std::move(reply));
   dispatch(message, author, ticket);
@@ -197,10 +218,9 @@ std::uint64_t Hub::expect(const ClientMessage& message, const Author& author, Re
 
 void Hub::dispatch(const ClientMessage& message, const Author& author, std::uint64_t ticket) {
   const std::string by = author.name;
-  const auto clock = [&](runtime::LiveCommand::Kind kind, double speed) {
+  const auto clock = [&](runtime::LiveCommand::Kind kind) {
     runtime::LiveCommand command;
     command.kind = kind;
-    command.speed = speed;
     submit({command}, ticket);
   };
   const auto swarm = [&](swarm::CommandKind kind) {
@@ -221,16 +241,36 @@ void Hub::dispatch(const ClientMessage& message, const Author& author, std::uint
                    ask_desk(ticket, [ticket, yaml = body.yaml](Desk& desk) { desk.load_mission(ticket, yaml); });
                  },
                  [&](const StartAfresh&) { swarm(swarm::CommandKind::kStartAfresh); },
-                 [&](const SetSpeed& body) {
-                   if (!(body.factor >= 1.0 && body.factor <= kMostSpeed))
-                     return refuse(ticket, "invalid", fmt::format("factor: must be in [1, {}]", kMostSpeed));
-                   clock(runtime::LiveCommand::Kind::kSetSpeed, body.factor);
+                 [&](const SetSpeed& body) { set_speed(body.factor, ticket); },
+                 [&](const Pause&) { clock(runtime::LiveCommand::Kind::kPause); },
+                 [&](const ResumeClock&) { clock(runtime::LiveCommand::Kind::kResumeClock); },
+                 [&](const Seek& body) {
+                   runtime::LiveCommand command;
+                   command.kind = runtime::LiveCommand::Kind::kSeek;
+                   command.seek_s = body.time_s;
+                   submit({command}, ticket);
                  },
-                 [&](const Pause&) { clock(runtime::LiveCommand::Kind::kPause, 1.0); },
-                 [&](const ResumeClock&) { clock(runtime::LiveCommand::Kind::kResumeClock, 1.0); },
+                 [&](const StepTicks& body) {
+                   runtime::LiveCommand command;
+                   command.kind = runtime::LiveCommand::Kind::kStep;
+                   command.steps = body.ticks;
+                   submit({command}, ticket);
+                 },
                  [](const auto&) {},  // answered before
              },
              message.body);
+}
+
+void Hub::set_speed(double factor, std::uint64_t ticket) {
+  const bool is_recording = flight_->is_recording();
+  const double least = is_recording ? runtime::ReplayLoop::kLeastSpeed : 1.0;
+  const double most = is_recording ? runtime::ReplayLoop::kMostSpeed : kMostSpeed;
+  if (!(factor >= least && factor <= most))
+    return refuse(ticket, "invalid", fmt::format("factor: must be in [{}, {}]", least, most));
+  runtime::LiveCommand command;
+  command.kind = runtime::LiveCommand::Kind::kSetSpeed;
+  command.speed = factor;
+  submit({command}, ticket);
 }
 
 /// The drones that a wish names; refused where one of them is not there.
@@ -275,7 +315,7 @@ void Hub::submit(std::vector<runtime::LiveCommand> commands, std::uint64_t ticke
     command.is_last_of_ticket = false;
   }
   commands.back().is_last_of_ticket = true;
-  if (!flight_->loop().submit(std::move(commands)))
+  if (!flight_->submit(std::move(commands)))
     return refuse(ticket, "busy", "too many commands wait for the next tick; try again");
   wait_for_control(waiting_.at(ticket));
 }

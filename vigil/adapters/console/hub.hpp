@@ -140,6 +140,10 @@ class Hub {
   void tell_presence();
 
   void take(const FlightNews& news);
+  void take(const RecordingNews& news);
+  void take(const HistoryNews& news);
+  void show_flight(std::shared_ptr<runtime::ShownFlight> flight, SharedBytes mission);
+  void set_speed(double factor, std::uint64_t ticket);
   void give_up_waiting();
   void take(const TargetsNews& news);
   void take(const GroundNews& news);
@@ -151,6 +155,7 @@ class Hub {
   void hear_answer(const runtime::LiveEvent& event);
   void answer_pending(std::chrono::nanoseconds now);
   void log(ConsoleEvent event);
+  void keep_event(Json event);
   void send_events();
   void send_snapshot(std::chrono::nanoseconds now);
   void send_status();
@@ -169,7 +174,8 @@ class Hub {
   std::unordered_map<std::uint64_t, Waiting> waiting_;
   std::uint64_t next_ticket_ = 1;
 
-  std::shared_ptr<runtime::LiveMission> flight_;
+  std::shared_ptr<runtime::ShownFlight> flight_;
+  std::optional<ReplayState> replay_;  ///< where flight_ is a recording
   std::unordered_map<std::string, std::size_t> drone_index_;
   SharedBytes mission_message_;
   SharedBytes targets_message_;

@@ -46,6 +46,8 @@ std::string Hub::drone_id(std::size_t index) const {
 
 void Hub::take(DeskNews news) {
   if (const auto* flight = std::get_if<FlightNews>(&news)) take(*flight);
+  if (const auto* recording = std::get_if<RecordingNews>(&news)) take(*recording);
+  if (const auto* history = std::get_if<HistoryNews>(&news)) take(*history);
   if (const auto* targets = std::get_if<TargetsNews>(&news)) take(*targets);
   if (const auto* ground = std::get_if<GroundNews>(&news)) take(*ground);
   if (const auto* answer = std::get_if<DeskAnswer>(&news)) take(*answer);
@@ -76,10 +78,11 @@ void Hub::give_up_waiting() {
       waiting.reply(refused_json({waiting.id, "not_now", "another mission was loaded meanwhile"}));
 }
 
-void Hub::take(const FlightNews& news) {
+void Hub::show_flight(std::shared_ptr<runtime::ShownFlight> flight, SharedBytes mission) {
   give_up_waiting();
-  flight_ = news.flight;
-  mission_message_ = news.mission;
+  flight_ = std::move(flight);
+  replay_.reset();
+  mission_message_ = std::move(mission);
   targets_message_.reset();
   density_.reset();
   coverage_.reset();
@@ -91,11 +94,37 @@ void Hub::take(const FlightNews& news) {
   trails_.emplace(flight_->mission().drones.size());
   drone_index_.clear();
   for (std::size_t i = 0; i < flight_->mission().drones.size(); ++i) drone_index_.emplace(drone_id(i), i);
-  waits_for_resume_ = news.is_restored;
   has_told_lost_ticks_ = false;
   has_told_trouble_ = false;
   for (const auto& [id, client] : clients_)
     if (client.has_said_hello) client.line->say(mission_message_);
+}
+
+void Hub::take(const RecordingNews& news) {
+  show_flight(news.recording, news.mission);
+  replay_.emplace();
+  waits_for_resume_ = false;
+}
+
+void Hub::take(const HistoryNews& news) {
+  replay_ = news.state;
+  if (!news.is_afresh) {
+    for (const ConsoleEvent& event : news.events) keep_event(event_json(event));
+    return;
+  }
+  events_.clear();
+  new_events_.clear();
+  for (const ConsoleEvent& event : news.events) keep_event(event_json(event));
+  new_events_.clear();
+  say_to_all(events_afresh_json({events_.begin(), events_.end()}));
+  if (news.trails) trails_ = news.trails;
+  show_to_all(ClientLine::Latest::kTrails, shared(trails_frame(trails_->trails(), flight_->epoch())));
+  next_status_ = {};
+}
+
+void Hub::take(const FlightNews& news) {
+  show_flight(news.flight, news.mission);
+  waits_for_resume_ = news.is_restored;
   runtime::EventWords words{Severity::kInfo, fmt::format("mission {} begins", flight_->mission().name), "", ""};
   if (news.is_restored)
     words = {Severity::kWarning,
@@ -168,8 +197,12 @@ void Hub::log(ConsoleEvent event) {
   if (event.time_s == 0.0 && frame_) event.time_s = frame_->snapshot.time_s;
   if (flight_ && flight_->recorder() != nullptr && event.source != "mission")
     flight_->recorder()->log({event.time_s, event.source, event.what, event.drone, event.words.text});
-  events_.push_back(event_json(event));
-  new_events_.push_back(events_.back());
+  keep_event(event_json(event));
+}
+
+void Hub::keep_event(Json event) {
+  new_events_.push_back(event);
+  events_.push_back(std::move(event));
   if (events_.size() > kKeptEvents) events_.pop_front();
 }
 
@@ -259,7 +292,7 @@ void Hub::hear_answer(const LiveEvent& event) {
     waiting.reply(ack_json(waiting.id, answer));
   }
   if (waiting.what == "resume" || waiting.what == "take_off") waits_for_resume_ = false;
-  if (is_logged_by_the_flight(waiting.what))
+  if (is_logged_by_the_flight(waiting.what) && !flight_->is_recording())
     log({.tick = event.tick,
          .time_s = event.time_s,
          .source = "operator",
@@ -294,9 +327,9 @@ void Hub::poll() {
   const std::chrono::nanoseconds now = links_.now();
   drop_the_silent(now);
   if (!flight_) return;
-  flight_->loop().read(clock_, clock_version_);
+  flight_->read(clock_, clock_version_);
   if (now >= next_snapshot_) send_snapshot(now);
-  for (const LiveEvent& event : flight_->loop().take_events()) hear(event);
+  for (const LiveEvent& event : flight_->take_events()) hear(event);
   answer_pending(now);
   send_events();
   if (now >= next_status_) {
@@ -324,10 +357,11 @@ void Hub::watch_recorder() {
 
 void Hub::send_snapshot(std::chrono::nanoseconds now) {
   next_snapshot_ = now + kSnapshotEvery;
-  const bool is_new = flight_->loop().read(*frame_, frame_version_);
+  const bool is_new = flight_->read(*frame_, frame_version_);
   if (!frame_->has_ticked) return;
   if (is_new) trails_->add(frame_->snapshot);
-  const std::chrono::nanoseconds age = now - frame_->computed_at;
+  // A recording does not grow older.
+  const std::chrono::nanoseconds age = flight_->is_recording() ? 0ns : now - frame_->computed_at;
   double worst_age_s = std::numeric_limits<double>::quiet_NaN();
   for (const runtime::AreaState& area : areas_) worst_age_s = std::fmax(worst_age_s, area.age_s);
   const runtime::QueuedRecorder* recorder = flight_->recorder();
@@ -344,10 +378,11 @@ void Hub::send_snapshot(std::chrono::nanoseconds now) {
 Json Hub::status() const {
   StatusContext context{.epoch = flight_->epoch(),
                         .recording = {},
-                        .lost_events = flight_->loop().lost_events(),
+                        .lost_events = flight_->lost_events(),
                         .clients = clients_.size(),
                         .lateness = clock_.lateness,
-                        .waits_for_resume = waits_for_resume_};
+                        .waits_for_resume = waits_for_resume_,
+                        .replay = replay_};
   if (const runtime::QueuedRecorder* recorder = flight_->recorder())
     context.recording = RecordingState{setup_.recording_folder, recorder->kept_ticks(), recorder->lost_ticks()};
   return status_json(areas_, context);
@@ -387,7 +422,7 @@ Json Hub::state() const {
              {"idle", swarm::name_of(snapshot.idle)},
              {"drones", std::move(drones)}};
   const Json more = status();
-  for (const char* member : {"areas", "recording", "clients", "lateness_us", "waits_for_resume"})
+  for (const char* member : {"areas", "recording", "clients", "lateness_us", "waits_for_resume", "replay"})
     state[member] = more.at(member);
   return state;
 }

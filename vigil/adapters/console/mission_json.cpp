@@ -85,7 +85,7 @@ ordered_json mission_json(const runtime::Mission& mission) {
   return writer.take();
 }
 
-ordered_json display_json(const runtime::Mission& mission, double most_speed) {
+ordered_json display_json(const runtime::Mission& mission, const SpeedRange& speeds) {
   const safety::BarrierParameters barrier = runtime::barrier_parameters(mission);
   const auto memory_s = runtime::memory_s(mission);
   return {{"field",
@@ -105,9 +105,10 @@ ordered_json display_json(const runtime::Mission& mission, double most_speed) {
           {"basis_max_index", mission.control.basis_max_index},
           {"basis_smoothness", mission.control.basis_smoothness},
           {"memory_s", memory_s ? ordered_json(*memory_s) : ordered_json(nullptr)},
-          {"can_change_speed", most_speed > 1.0},
-          {"can_pause", most_speed > 1.0},
-          {"most_speed", most_speed}};
+          {"can_change_speed", speeds.most > 1.0},
+          {"can_pause", speeds.most > 1.0},
+          {"least_speed", speeds.least},
+          {"most_speed", speeds.most}};
 }
 
 }  // namespace vigil::console

@@ -213,6 +213,8 @@ const std::vector<std::pair<std::string, std::string>>& client_texts() {
       {"return", R"({"type":"return","id":7,"drones":["a"]})"},
       {"speed", R"({"type":"set_speed","id":8,"factor":20})"},
       {"pause", R"({"type":"pause","id":9})"},
+      {"seek", R"({"type":"seek","id":18,"time_s":23.5})"},
+      {"step back", R"({"type":"step","id":19,"ticks":-1})"},
       {"editing", R"({"type":"editing","id":10,"what":[{"kind":"area","name":"west"}]})"},
       {"load", R"({"type":"load_mission","id":11,"yaml":"format: 1"})"},
       {"every edit",
@@ -241,6 +243,9 @@ const std::vector<std::pair<std::string, std::string>>& client_texts() {
        R"({"type":"edit","id":1,"based_on":7,"edits":[{"op":"add_point","kind":"cluster","name":"x","point_m":[1,2,3]}]})"},
       {"look too far ahead", R"({"type":"preview","id":16,"seconds":601})"},
       {"look ahead by nothing", R"({"type":"preview","id":17,"based_on":7})"},
+      {"half a step", R"({"type":"step","id":20,"ticks":0.5})"},
+      {"no step", R"({"type":"step","id":21,"ticks":0})"},
+      {"seek without a time", R"({"type":"seek","id":22})"},
       {"a number beyond all", R"({"type":"set_speed","id":1,"factor":1e999})"},
   };
   return kTexts;
@@ -259,10 +264,18 @@ Json client_messages() {
 }
 
 /// Of the mission's sections only some: what a mission file may say grows without the protocol.
-Json mission_vector(const runtime::Mission& mission) {
-  Json message = mission_message(mission, 3);
+Json shortened(Json message) {
   for (const char* section : {"control", "safety", "health", "sensor", "simulation"}) message["mission"].erase(section);
   return message;
+}
+
+Json replay_status_vector(const std::vector<runtime::AreaState>& areas, StatusContext status) {
+  status.replay = ReplayState{.number = 1151,
+                              .is_recomputed = true,
+                              .is_seeking = false,
+                              .is_at_end = true,
+                              .difference = "metric: recorded 0.5, recomputed 0.25"};
+  return status_json(areas, status);
 }
 
 /// Two drones, of which the second was never seen.
@@ -309,16 +322,22 @@ Json server_messages() {
       .lost_events = 0,
       .clients = 2,
       .lateness = {.ticks = 1, .p50_us = 64.0, .p99_us = 128.0, .p999_us = 256.0, .max_us = 512.0},
-      .waits_for_resume = true};
+      .waits_for_resume = true,
+      .replay = {}};
   Json list = Json::array();
   const auto add = [&list](const char* name, Json message) {
     list.push_back({{"name", name}, {"message", std::move(message)}});
   };
   add("hello", hello_json(ana, "vigil 0.1.0", true));
-  add("mission", mission_vector(mission));
+  const RecordingFacts recording{
+      .begin_s = 0.0, .end_s = 23.0, .ticks = 1151, .spacing_s = 0.02, .incomplete = "it was cut off"};
+  add("mission", shortened(mission_message(mission, 3)));
+  add("mission of a recording", shortened(recorded_mission_message(mission, 3, recording)));
   add(is_refused ? "targets, not changed" : "targets", targets_json(desk, 3));
   add("events", events_json({event_json(event)}));
+  add("events afresh", events_afresh_json({event_json(event)}));
   add("status", status_json(areas, status));
+  add("status of a recording", replay_status_vector(areas, status));
   add("presence", presence_json({ana}));
   add("ack", ack_json(7, {1151, false, {}, {}}));
   add("ack of an edit", ack_json(8, {1151, true, 8, {}}));

@@ -20,6 +20,8 @@
 #include "vigil/adapters/console/http_wire.hpp"
 #include "vigil/adapters/console/hub.hpp"
 #include "vigil/adapters/console/outbound.hpp"
+#include "vigil/adapters/console/replay_desk.hpp"
+#include "vigil/adapters/console/replay_thread.hpp"
 #include "vigil/adapters/console/rest.hpp"
 #include "vigil/adapters/console/seats.hpp"
 
@@ -306,12 +308,16 @@ class Server::Sockets {
   void run(const runtime::Mission& mission, const runtime::SavedFlight* saved, const std::function<bool()>& is_over) {
     desk_.begin(mission, saved);  // before its thread is there: what it throws is the caller's
     desk_thread_.emplace(desk_, [this](std::string text) { tell_hub(DeskTrouble{std::move(text)}); });
-    accept_next();
-    poll();
-    ask_whether(is_over);
-    context_.run();
+    serve_until(is_over);
     desk_thread_.reset();
     desk_.end();
+  }
+
+  void show(const std::shared_ptr<runtime::ReplayLoop>& recording, const std::function<bool()>& is_over) {
+    ReplayDesk desk(recording, [this](DeskNews news) { tell_hub(std::move(news)); });
+    desk.begin();
+    const ReplayThread thread(desk, [this](const std::string& text) { tell_hub(DeskTrouble{text}); });
+    serve_until(is_over);
   }
 
   void command(ClientMessage message, Role role, std::string by, std::function<void(const std::string&)> answer) {
@@ -325,6 +331,13 @@ class Server::Sockets {
   void warn(std::string text) { tell_hub(DeskTrouble{std::move(text)}); }
 
  private:
+  void serve_until(const std::function<bool()>& is_over) {
+    accept_next();
+    poll();
+    ask_whether(is_over);
+    context_.run();
+  }
+
   void listen(const Tcp::endpoint& endpoint) {
     Error error;
     acceptor_.open(endpoint.protocol(), error);
@@ -434,6 +447,10 @@ std::string Server::url() const { return sockets_->url(); }
 void Server::run(const runtime::Mission& mission, const runtime::SavedFlight* saved,
                  const std::function<bool()>& is_over) {
   sockets_->run(mission, saved, is_over);
+}
+
+void Server::show(const std::shared_ptr<runtime::ReplayLoop>& recording, const std::function<bool()>& is_over) {
+  sockets_->show(recording, is_over);
 }
 
 void Server::command(ClientMessage message, Role role, std::string by,

@@ -11,6 +11,7 @@
 #include "vigil/adapters/console/access.hpp"
 #include "vigil/adapters/console/client_message.hpp"
 #include "vigil/adapters/console/desk.hpp"
+#include "vigil/runtime/replay_loop.hpp"
 
 namespace vigil::console {
 
@@ -29,7 +30,8 @@ struct ServerOptions {
 };
 
 /// The console's server: HTTP and WebSockets for whoever looks at a flight, and the desk behind it. Beside the control
-/// thread of the flight it has two: the sockets' (the one that calls run()) and the desk's.
+/// thread of the flight it has two: the sockets' (the one that calls run() or show()) and the desk's, or a recording's.
+/// One of run() and show() is called, once.
 class Server {
  public:
   /// Listens at once. store: null where nothing is kept. Throws SetupError.
@@ -45,6 +47,9 @@ class Server {
   /// Flies the mission and serves until `is_over` says so, which is asked a few times a second. saved: what an earlier
   /// run left, or null. Throws what making the flight throws, and at the end what its recorder throws.
   void run(const runtime::Mission& mission, const runtime::SavedFlight* saved, const std::function<bool()>& is_over);
+
+  /// Shows a recording instead, from its first tick on.
+  void show(const std::shared_ptr<runtime::ReplayLoop>& recording, const std::function<bool()>& is_over);
 
   // Any thread, while run() does its work; afterwards nothing comes of it.
   /// A command that did not come through the sockets. `answer` is called once, on the sockets' thread, with why it was

@@ -2,6 +2,7 @@
 
 #include "vigil/adapters/console/edit_json.hpp"
 #include "vigil/adapters/console/mission_json.hpp"
+#include "vigil/runtime/replay_loop.hpp"
 
 namespace vigil::console {
 namespace {
@@ -28,6 +29,27 @@ Json area_json(const runtime::AreaState& area) {
           {"achieved", area.achieved}};
 }
 
+Json mission_message(const runtime::Mission& mission, std::uint32_t epoch, std::string_view fleet,
+                     const SpeedRange& speeds, Json recording) {
+  Json file = mission_json(mission);
+  file.erase("targets");
+  file.erase("no_fly");
+  return {{"type", "mission"},
+          {"epoch", epoch},
+          {"fleet", fleet},
+          {"mission", std::move(file)},
+          {"display", display_json(mission, speeds)},
+          {"recording", std::move(recording)}};
+}
+
+Json replay_json(const ReplayState& replay) {
+  return {{"number", replay.number},
+          {"is_recomputed", replay.is_recomputed},
+          {"is_seeking", replay.is_seeking},
+          {"is_at_end", replay.is_at_end},
+          {"difference", replay.difference}};
+}
+
 }  // namespace
 
 Json hello_json(const Operator& client, std::string_view program, bool wants_login) {
@@ -37,14 +59,17 @@ Json hello_json(const Operator& client, std::string_view program, bool wants_log
 }
 
 Json mission_message(const runtime::Mission& mission, std::uint32_t epoch) {
-  Json file = mission_json(mission);
-  file.erase("targets");
-  file.erase("no_fly");
-  return {{"type", "mission"},
-          {"epoch", epoch},
-          {"fleet", "SIM"},
-          {"mission", std::move(file)},
-          {"display", display_json(mission, kMostSpeed)}};
+  return mission_message(mission, epoch, "SIM", {1.0, kMostSpeed}, nullptr);
+}
+
+Json recorded_mission_message(const runtime::Mission& mission, std::uint32_t epoch, const RecordingFacts& recording) {
+  constexpr SpeedRange kSpeeds{runtime::ReplayLoop::kLeastSpeed, runtime::ReplayLoop::kMostSpeed};
+  return mission_message(mission, epoch, "REPLAY", kSpeeds,
+                         {{"begin_s", recording.begin_s},
+                          {"end_s", recording.end_s},
+                          {"ticks", recording.ticks},
+                          {"spacing_s", recording.spacing_s},
+                          {"incomplete", recording.incomplete}});
 }
 
 Json targets_json(const runtime::MissionDesk& desk, std::uint32_t epoch) {
@@ -82,6 +107,10 @@ Json event_json(const ConsoleEvent& event) {
 
 Json events_json(const std::vector<Json>& events) { return {{"type", "events"}, {"events", events}}; }
 
+Json events_afresh_json(const std::vector<Json>& events) {
+  return {{"type", "events"}, {"afresh", true}, {"events", events}};
+}
+
 Json status_json(const std::vector<runtime::AreaState>& areas, const StatusContext& context) {
   Json list = Json::array();
   for (const runtime::AreaState& area : areas) list.push_back(area_json(area));
@@ -101,7 +130,8 @@ Json status_json(const std::vector<runtime::AreaState>& areas, const StatusConte
             {"p99", context.lateness.p99_us},
             {"p999", context.lateness.p999_us},
             {"max", context.lateness.max_us}}},
-          {"waits_for_resume", context.waits_for_resume}};
+          {"waits_for_resume", context.waits_for_resume},
+          {"replay", context.replay ? replay_json(*context.replay) : Json(nullptr)}};
 }
 
 Json presence_json(const std::vector<Operator>& operators) {

@@ -48,6 +48,24 @@ struct RecordingState {
   std::uint64_t lost_ticks = 0;
 };
 
+/// What a recording is, for those who look at it.
+struct RecordingFacts {
+  double begin_s = 0.0;  ///< mission time of its first tick
+  double end_s = 0.0;    ///< of its last one
+  std::uint64_t ticks = 0;
+  double spacing_s = 0.0;  ///< between two of them
+  std::string incomplete;  ///< why it is not whole, for people; empty: it is
+};
+
+/// Where a recording stands.
+struct ReplayState {
+  std::uint64_t number = 0;    ///< ticks that are behind
+  bool is_recomputed = false;  ///< false: what is shown is what was recorded
+  bool is_seeking = false;
+  bool is_at_end = false;
+  std::string difference;  ///< what of the tick came out otherwise than recorded, for people; empty: nothing
+};
+
 struct StatusContext {
   std::uint32_t epoch = 0;
   std::optional<RecordingState> recording;
@@ -55,6 +73,7 @@ struct StatusContext {
   std::size_t clients = 0;
   runtime::LatenessFigures lateness;
   bool waits_for_resume = false;
+  std::optional<ReplayState> replay;
 };
 
 /// A command's answer, before its id.
@@ -69,9 +88,13 @@ using Json = nlohmann::ordered_json;
 
 [[nodiscard]] Json hello_json(const Operator& client, std::string_view program, bool wants_login);
 [[nodiscard]] Json mission_message(const runtime::Mission& mission, std::uint32_t epoch);
+[[nodiscard]] Json recorded_mission_message(const runtime::Mission& mission, std::uint32_t epoch,
+                                            const RecordingFacts& recording);
 [[nodiscard]] Json targets_json(const runtime::MissionDesk& desk, std::uint32_t epoch);
 [[nodiscard]] Json event_json(const ConsoleEvent& event);
 [[nodiscard]] Json events_json(const std::vector<Json>& events);
+/// The same, in place of all that was told before.
+[[nodiscard]] Json events_afresh_json(const std::vector<Json>& events);
 [[nodiscard]] Json status_json(const std::vector<runtime::AreaState>& areas, const StatusContext& context);
 [[nodiscard]] Json presence_json(const std::vector<Operator>& operators);
 [[nodiscard]] Json ack_json(std::uint64_t id, const Answer& answer);

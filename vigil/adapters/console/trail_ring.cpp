@@ -8,7 +8,6 @@
 namespace vigil::console {
 namespace {
 
-constexpr double kKeptS = 120.0;
 constexpr std::size_t kMostPoints = 480;     // of one drone
 constexpr std::size_t kMostOfAll = 400'000;  // of all drones together
 constexpr std::size_t kLeastPoints = 8;

@@ -12,6 +12,8 @@ namespace vigil::console {
 /// Where every drone has been lately, for whoever comes later. Bounded, whatever the number of drones. One thread.
 class TrailRing {
  public:
+  static constexpr double kKeptS = 120.0;  ///< about so much mission time is kept
+
   /// Keeps up to about two minutes of mission time, and fewer points a drone the more drones there are.
   explicit TrailRing(std::size_t drones);
 
@@ -19,6 +21,7 @@ class TrailRing {
   /// due since the last snapshot, they lie on the curve that has the places and velocities of both (cubic Hermite).
   void add(const swarm::Snapshot& snapshot);
   [[nodiscard]] Trails trails() const;
+  [[nodiscard]] std::size_t points() const { return points_; }  ///< the most that are kept of a drone
 
  private:
   /// A moment of all drones: x, y by turns; places are NaN where they are not known.

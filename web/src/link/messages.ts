@@ -49,6 +49,7 @@ const displayShape = record({
   sigma_min_m: finite,
   can_change_speed: flag,
   can_pause: flag,
+  least_speed: maybe(finite),
   most_speed: finite,
 });
 
@@ -57,6 +58,7 @@ const missionShape = record({
   fleet: oneOf('SIM', 'LIVE', 'REPLAY'),
   mission: record({ name, drones: list(record({ id: text(64) }), 200_000) }),
   display: displayShape,
+  recording: maybe(record({ begin_s: finite, end_s: finite, ticks: finite, spacing_s: finite, incomplete: sentence })),
 });
 
 const targetsShape = record({
@@ -110,6 +112,9 @@ const statusShape = record({
   clients: finite,
   lateness_us: maybe(record({ p50: finite, p99: finite, max: finite })),
   waits_for_resume: flag,
+  replay: maybe(
+    record({ number: finite, is_recomputed: flag, is_seeking: flag, is_at_end: flag, difference: sentence }),
+  ),
 });
 
 const editedShape = record({ kind: oneOf('cluster', 'area', 'no_fly'), name });
@@ -165,7 +170,7 @@ const kShapes = {
   hello: helloShape,
   mission: missionShape,
   targets: targetsShape,
-  events: record({ events: list(eventShape, 100_000) }),
+  events: record({ afresh: maybe(flag), events: list(eventShape, 100_000) }),
   status: statusShape,
   presence: presenceShape,
   ack: ackShape,
@@ -183,6 +188,7 @@ export type Hello = MessageOf<'hello'>;
 export type Mission = MessageOf<'mission'>;
 export type Display = Shaped<typeof displayShape>;
 export type TargetsMessage = MessageOf<'targets'>;
+export type Recording = NonNullable<Mission['recording']>;
 export type Status = MessageOf<'status'>;
 export type AreaStatus = Status['areas'][number];
 export type SwarmEvent = Shaped<typeof eventShape>;

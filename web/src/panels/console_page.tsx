@@ -8,6 +8,7 @@ import { Inspector, Orders } from './inspector';
 import { MapPanel } from './map_panel';
 import { Notices } from './notices';
 import { Plots } from './plots';
+import { ReplayBar } from './replay_bar';
 import { Timeline } from './timeline';
 import { Tools } from './tools';
 import { TopBar } from './top_bar';
@@ -31,7 +32,7 @@ export function ConsolePage() {
           <Orders />
         </aside>
         <section class="bottom" aria-label="Timeline and plots">
-          <Timeline />
+          {session.isRecording.value ? <ReplayBar /> : <Timeline />}
           <Plots />
         </section>
       </div>

@@ -73,6 +73,12 @@ const pausing = (app: App): void => {
     void app.session.command({ type: isPaused ? 'resume_clock' : 'pause' });
 };
 
+const stepping =
+  (ticks: number) =>
+  (app: App): void => {
+    if (app.session.isRecording.value) void app.session.command({ type: 'step', ticks });
+  };
+
 /** Space at the map's cursor; with the selecting tool it takes what is there. */
 const placing = (app: App): void => {
   const cursor = app.editor.cursor.value;
@@ -117,6 +123,8 @@ const kDeeds: Record<Action, (app: App) => void> = {
   'zoom-out': (app) => app.map.value?.zoom(1 / 1.4),
   'what-if': (app) => app.foresight.toggle(),
   'pause-clock': pausing,
+  'step-back': stepping(-1),
+  'step-on': stepping(1),
   'event-log': (app) => (app.isLogOpen.value = !app.isLogOpen.value),
   theme: (app) => (app.settings.theme.value = app.settings.theme.value === 'dark' ? 'light' : 'dark'),
   mute: (app) => (app.settings.isMuted.value = !app.settings.isMuted.value),

@@ -5,8 +5,11 @@ import { useApp } from './app_context';
 import { HoldButton } from './hold_button';
 import { Icon } from './icons';
 import { MissionMenu } from './mission_menu';
+import { SpeedChoice } from './speed_choice';
 import { usePopover } from './use_popover';
 import { WhoMenu } from './who_menu';
+
+const kSpeeds = [1, 2, 5, 10, 20];
 
 export function TopBar() {
   const { session, orders, isStopArmed } = useApp();
@@ -178,34 +181,16 @@ function MissionClock() {
           {isPaused && <small> paused</small>}
         </span>
       </div>
-      {display?.can_pause && (
+      {display?.can_pause && !session.isRecording.value && (
         <IconButton
           icon={isPaused ? 'play' : 'pause'}
           label={isPaused ? 'Go on' : 'Pause the simulation'}
           act={() => void session.command({ type: isPaused ? 'resume_clock' : 'pause' })}
         />
       )}
-      {display?.can_change_speed && <SpeedChoice most={display.most_speed} speed={snapshot?.speed ?? 1} />}
+      {display?.can_change_speed && !session.isRecording.value && (
+        <SpeedChoice label="Speed of the simulation" factors={kSpeeds} />
+      )}
     </div>
-  );
-}
-
-function SpeedChoice({ most, speed }: { most: number; speed: number }) {
-  const { session } = useApp();
-  const factors = [1, 2, 5, 10, 20].filter((factor) => factor <= most);
-  const shown = factors.includes(speed) ? factors : [...factors, speed];
-  return (
-    <select
-      aria-label="Speed of the simulation"
-      value={String(speed)}
-      disabled={!session.mayOperate.value}
-      onChange={(event) => void session.command({ type: 'set_speed', factor: Number(event.currentTarget.value) })}
-    >
-      {shown.map((factor) => (
-        <option key={factor} value={String(factor)}>
-          {factor}×
-        </option>
-      ))}
-    </select>
   );
 }

@@ -110,7 +110,11 @@ export class Editor {
     if (session.mayOperate.value) return true;
     session.notify(
       'warning',
-      session.isLive.value ? 'Your role may look, not edit.' : 'Not connected: editing is off.',
+      session.isRecording.value
+        ? 'This is a recording: what happened in it cannot be changed.'
+        : session.isLive.value
+          ? 'Your role may look, not edit.'
+          : 'Not connected: editing is off.',
     );
     return false;
   }

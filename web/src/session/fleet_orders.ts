@@ -69,7 +69,11 @@ export class FleetOrders {
   mayStopMotors(): boolean {
     const { session } = this;
     if (session.mayStopMotors.value) return true;
-    const reason = session.isLive.value ? 'Only a safety pilot may stop motors.' : 'Not connected: nothing was sent.';
+    const reason = session.isRecording.value
+      ? 'This is a recording: nothing was sent.'
+      : session.isLive.value
+        ? 'Only a safety pilot may stop motors.'
+        : 'Not connected: nothing was sent.';
     session.notify('warning', reason);
     return false;
   }

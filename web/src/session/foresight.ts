@@ -52,6 +52,10 @@ export class Foresight {
   }
 
   toggle(): void {
+    if (this.session.isRecording.value && !this.isOn.value) {
+      this.session.notify('info', 'This is a recording: play it to see what came.');
+      return;
+    }
     this.isOn.value = !this.isOn.value;
   }
 

@@ -56,8 +56,11 @@ export class Session {
   readonly draft = computed<Targets>(() => draftOf(this.committed.value, this.staging.value) ?? this.committed.value);
   readonly isStaged = computed(() => isStaged(this.staging.value));
   readonly isLive = computed(() => this.linkState.value.phase === 'live' && this.hasSnapshot.value);
-  readonly mayOperate = computed(() => this.isLive.value && (this.hello.value?.role ?? 'viewer') !== 'viewer');
-  readonly mayStopMotors = computed(() => this.isLive.value && this.hello.value?.role === 'safety_pilot');
+  /** What happened in a recording cannot be changed; only its clock obeys. */
+  readonly isRecording = computed(() => this.mission.value?.fleet === 'REPLAY');
+  readonly mayTurnClock = computed(() => this.isLive.value && (this.hello.value?.role ?? 'viewer') !== 'viewer');
+  readonly mayOperate = computed(() => this.mayTurnClock.value && !this.isRecording.value);
+  readonly mayStopMotors = computed(() => this.mayOperate.value && this.hello.value?.role === 'safety_pilot');
 
   snapshot: Snapshot | null = null;
   /** When the snapshot came (World.nowMs), and how old it was then. */
@@ -180,7 +183,8 @@ export class Session {
         this.takeTargets(message);
         break;
       case 'events':
-        this.takeEvents(message.events);
+        if (message.afresh) this.takeEventsAfresh(message.events);
+        else this.takeEvents(message.events);
         break;
       case 'status':
         this.status.value = message;
@@ -264,6 +268,13 @@ export class Session {
     const own = this.hello.value;
     const isShared = this.operators.value.some((one) => one.client !== own?.client && one.name === own?.name);
     return event.by !== own?.name || isShared;
+  }
+
+  /** Another moment of a recording: what stood there before is of elsewhere, and nothing of it is news. */
+  private takeEventsAfresh(events: readonly SwarmEvent[]): void {
+    this.series.reset(this.droneIds.value.length);
+    this.events.value = events;
+    this.lastEvent = events[events.length - 1]?.number ?? 0;
   }
 
   /** One message for a few events, one for all of them where they are many: the log has each. */

@@ -75,6 +75,24 @@ const settled = async (): Promise<void> => {
 };
 
 describe('session', () => {
+  it('Another moment of a recording brings its own events and plots, and nothing of them is news', () => {
+    const { session, socket } = begin();
+    socket.say({ type: 'events', events: [event(1, 'info', 'a'), event(2, 'warning', 'b')] });
+    socket.say({ type: 'events', afresh: true, events: [event(1, 'alarm', 'a')] });
+    expect(session.events.value.map((one) => one.number)).toEqual([1]);
+    expect(session.notices.value).toEqual([]);
+    expect(session.series.swarm.length).toBe(0);
+    socket.say({ type: 'events', events: [event(2, 'warning', 'b')] });
+    expect(session.notices.value).toHaveLength(1);
+  });
+
+  it('A recording takes no orders, but its clock does', () => {
+    const { session, socket } = begin();
+    expect([session.mayOperate.value, session.mayTurnClock.value]).toEqual([true, true]);
+    socket.say({ ...kMission, fleet: 'REPLAY' });
+    expect([session.mayOperate.value, session.mayTurnClock.value]).toEqual([false, true]);
+  });
+
   it('A staged edit asks for a ghost, and tells others what is edited', () => {
     const { session, sent, heavier } = begin();
     session.restage(stage(session.staging.value, { what: 'heavier', edits: [heavier] }, 1));

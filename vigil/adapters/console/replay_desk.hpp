@@ -1,0 +1,47 @@
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <string>
+
+#include "vigil/adapters/console/desk.hpp"
+#include "vigil/runtime/replay_loop.hpp"
+
+namespace vigil::console {
+
+/// What the desk is to a flight, for a recording: turns its clock and tells what clients are shown of the tick that it
+/// comes to. One thread, the replay's.
+class ReplayDesk {
+ public:
+  using Tell = std::function<void(DeskNews)>;
+  using Time = runtime::ReplayLoop::Time;
+
+  /// `recording`: turned by nobody else.
+  ReplayDesk(std::shared_ptr<runtime::ReplayLoop> recording, Tell tell);
+
+  /// Tells RecordingNews and what is shown of the first tick.
+  void begin();
+  /// Goes on as far as is due at `now`, tells what is new, and says when to be called again. Throws what the recording
+  /// throws.
+  Time turn(Time now);
+
+ private:
+  void tell_targets();
+  void tell_ground();
+  void tell_history();
+  [[nodiscard]] ReplayState state() const;
+  [[nodiscard]] TrailRing trails();
+
+  std::shared_ptr<runtime::ReplayLoop> recording_;
+  Tell tell_;
+  std::uint64_t told_revision_ = 0;
+  std::uint64_t told_jumps_ = 0;
+  std::uint64_t told_number_ = 0;
+  std::size_t told_events_ = 0;
+  bool is_arriving_ = true;  ///< since the last jump nothing was told of where it led
+  Time next_look_{0};
+};
+
+}  // namespace vigil::console
