@@ -32,6 +32,13 @@ void check_console(const ConsoleOptions& options) {
     throw Failure(kBadInput, "--certificate and --key belong together; give both, or none");
 }
 
+void warn_of_readers(const ConsoleOptions& options) {
+  if (options.tokens.empty() || !options.certificate.empty() || console::is_loopback(options.address)) return;
+  fmt::print(
+      "vigil: warning: without TLS whoever is on the way can read the tokens and give orders with them; give "
+      "--certificate and --key, or serve on 127.0.0.1 behind something that encrypts\n");
+}
+
 console::ServerOptions server_options(const ConsoleOptions& options, const std::string& version) {
   console::ServerOptions result;
   result.address = options.address;

@@ -23,6 +23,9 @@ struct ConsoleOptions {
 /// Throws Failure (kBadInput) where they contradict each other, or would let in whoever comes.
 void check_console(const ConsoleOptions& options);
 
+/// Prints a warning where others on the way can read tokens and orders.
+void warn_of_readers(const ConsoleOptions& options);
+
 /// For the server; the tokens are read. Throws console::SetupError.
 [[nodiscard]] console::ServerOptions server_options(const ConsoleOptions& options, const std::string& version);
 

@@ -15,10 +15,11 @@
 namespace vigil::apps {
 namespace {
 
-void announce(const runtime::ReplayLoop& recording, const std::string& url) {
+void announce(const ConsoleOptions& options, const runtime::ReplayLoop& recording, const std::string& url) {
   const runtime::ReplayScene& scene = recording.scene();
   fmt::print("vigil: {}, recorded from {:g} s to {:g} s, at {}\n", recording.mission().name, scene.begin_s(),
              scene.end_s(), url);
+  warn_of_readers(options);
   if (!scene.recording().incomplete_reason().empty())
     fmt::print("vigil: not whole: {}\n", scene.recording().incomplete_reason());
   std::fflush(stdout);
@@ -29,7 +30,7 @@ int show(const std::filesystem::path& directory, const ConsoleOptions& options, 
   const auto recording = std::make_shared<runtime::ReplayLoop>(choose_recording(directory).mission, open, /*epoch=*/1U);
   std::string url;
   console::ServerOptions served = server_options(options, version);
-  served.ready = [&] { announce(*recording, url); };
+  served.ready = [&] { announce(options, *recording, url); };
   console::Server server(served, {}, nullptr);
   url = server.url();
   catch_interrupts();

@@ -108,17 +108,9 @@ bool ticks_may_come_first() {
   return may;
 }
 
-/// Tokens and orders that others on the way can read.
-bool is_readable_on_the_way(const ServeOptions& options) {
-  return !options.tokens.empty() && options.certificate.empty() && !console::is_loopback(options.address);
-}
-
 void announce(const ServeOptions& options, const std::string& mission, const std::string& url, bool is_restored) {
   fmt::print("vigil: {} at {}\n", mission, url);
-  if (is_readable_on_the_way(options))
-    fmt::print(
-        "vigil: warning: without TLS whoever is on the way can read the tokens and give orders with them; give "
-        "--certificate and --key, or serve on 127.0.0.1 behind something that encrypts\n");
+  warn_of_readers(options.console);
   if (!ticks_may_come_first())
     fmt::print("vigil: without real-time priority ticks begin late on a busy machine; `ulimit -r 1` would allow it\n");
   if (is_restored) fmt::print("vigil: goes on where it was; drones in the air hold until somebody resumes them\n");
