@@ -73,8 +73,9 @@ describe('a recording', () => {
     await expect.poll(() => standing(page).textContent()).toContain('tick 501 of 1500');
     await page.getByRole('button', { name: 'One tick on' }).click();
     await expect.poll(() => standing(page).textContent()).toContain('tick 502 of 1500');
-    await page.locator('body').press('[');
-    await page.locator('body').press('[');
+    await moment(page).focus(); // where nobody types
+    await page.keyboard.press('[');
+    await page.keyboard.press('[');
     await expect.poll(() => standing(page).textContent()).toContain('tick 500 of 1500');
   });
 
@@ -103,7 +104,8 @@ describe('a recording', () => {
       const page = await open({ theme });
       await seek(page, 25);
       await expect.poll(() => standing(page).textContent()).toContain('recomputed');
-      await page.locator('body').press('1');
+      await page.keyboard.press('1');
+      await page.getByRole('region', { name: 'Drone cf1' }).waitFor();
       expect(await violationsOf(page)).toEqual([]);
       await keepPicture(page, `replay_${theme}`);
     });

@@ -1,7 +1,7 @@
 import { meaningInField, TwoPresses } from '../model/keyboard';
 import type { App } from './app_context';
 
-const kField = 'input:not([type=checkbox]), textarea';
+const kField = 'input:not([type=checkbox], [type=range]), textarea';
 const kNumberField = 'input[inputmode=decimal]';
 const kModifiers: readonly string[] = ['Shift', 'Control', 'Alt', 'Meta'];
 
