@@ -164,6 +164,9 @@ CLI::App* add_replay(CLI::App& program, ReplayOptions& options) {
   command->add_flag("--verify", options.verify, "Recompute every tick and compare it, bit for bit");
   command->add_option("--from", options.from_s, "Fly on from this moment by other rules, in the mission's simulator")
       ->type_name("SECONDS");
+  command->add_option("--why", options.why, "Why this drone's velocity was what it was: what was wanted, every row")
+      ->type_name("DRONE");
+  command->add_option("--at", options.at_s, "The moment of --why (default: the end)")->type_name("SECONDS");
   command->add_option("--out", options.out, "Directory for a recording of the flight that would have been")
       ->check(not_empty());
   add_settings(command, options.settings);

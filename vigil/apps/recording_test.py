@@ -128,6 +128,23 @@ class Recordings(unittest.TestCase):
         self.assertEqual(run("replay", out, "--from", 5, "--set", "control.rate_hz=20").returncode, 3)
         self.assertEqual(run("replay", out).returncode, 2)
 
+    def test_a_velocity_is_explained_by_the_rows_that_made_it(self):
+        out = self.simulated("crowd.yaml", "--seconds", 10)
+        result = run("replay", out, "--why", "cf7", "--at", 5, "--json")
+        self.assertEqual(result.returncode, 0, result.stderr)
+        why = json.loads(result.stdout)
+        self.assertEqual((why["drone"], why["tick"]), ("cf7", 250))
+        self.assertTrue(why["rows"])
+        self.assertEqual(run("export", out, "--out", self.folder / "tables").returncode, 0)
+        with (self.folder / "tables" / "drones.csv").open() as table:
+            row = next(r for r in csv.DictReader(table) if r["drone"] == "cf7" and float(r["t_s"]) == 5)
+        for told, column in (("u_nom_m_s", "nominal"), ("u_m_s", "command")):
+            self.assertEqual(why[told], [float(row[f"{column}_x_m_s"]), float(row[f"{column}_y_m_s"])])
+        self.assertIn("cf7", run("replay", out, "--why", "cf7").stdout)
+        for wrong in (("--why", "nobody"), ("--why", "cf7", "--at", 60), ("--at", 5), ("--why", "cf7", "--verify")):
+            result = run("replay", out, *wrong)
+            self.assertEqual((result.returncode, len(result.stderr.splitlines())), (2, 1), result.stderr)
+
     def test_tables_have_a_line_of_every_tick(self):
         out = self.simulated("paper.yaml", "--seconds", 10)
         result = run("export", out, "--out", self.folder / "tables")

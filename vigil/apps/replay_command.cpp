@@ -19,6 +19,7 @@
 #include "vigil/runtime/mission_file.hpp"
 #include "vigil/runtime/mission_writer.hpp"
 #include "vigil/runtime/replayed_flight.hpp"
+#include "vigil/runtime/velocity_reasons.hpp"
 
 namespace vigil::apps {
 namespace {
@@ -152,20 +153,60 @@ int print_two_flights(const ReplayOptions& options, runtime::ReplayedFlight& fli
   return kDone;
 }
 
+swarm::DroneId drone_named(const std::string& id, const runtime::Mission& mission) {
+  for (std::size_t i = 0; i < mission.drones.size(); ++i)
+    if (mission.drones[i].id == id) return swarm::DroneId(i);
+  throw Failure(kBadInput, fmt::format("--why {}: no drone of this recording is called that; its first is {}", id,
+                                       mission.drones.front().id));
+}
+
+/// To the newest tick at or before a moment, or to the end.
+void go_to(runtime::ReplayedFlight& flight, std::optional<double> at_s) {
+  const double half_a_tick_s = 0.5 * flight.recording().head().parameters.dt_s;
+  while (flight.number() == 0 || !at_s || flight.snapshot().time_s + half_a_tick_s < *at_s)
+    if (!flight.step()) break;
+  if (flight.number() == 0) throw Failure(kComponentFailed, "the recording has no complete tick");
+  const double end_s = flight.snapshot().time_s;
+  if (at_s && end_s + half_a_tick_s < *at_s)
+    throw Failure(kBadInput, fmt::format("--at {:g}: the recording ends at {:g} s", *at_s, end_s));
+  if (!flight.is_recomputed())
+    throw Failure(kComponentFailed,
+                  "this moment cannot be recomputed: not every tick before it was kept (see --verify)");
+}
+
+int print_reasons(const ReplayOptions& options, runtime::ReplayedFlight& flight, const runtime::Mission& mission) {
+  const swarm::DroneId drone = drone_named(options.why, mission);
+  go_to(flight, options.at_s);
+  if (options.json)
+    fmt::print("{}\n", runtime::velocity_reasons_json(flight.state(), drone, mission).dump(2));
+  else
+    fmt::print("{}", runtime::velocity_reasons(flight.state(), drone, mission));
+  return kDone;
+}
+
+void check(const ReplayOptions& options) {
+  const int asked = (options.verify ? 1 : 0) + (options.from_s ? 1 : 0) + (options.why.empty() ? 0 : 1);
+  if (asked > 1)
+    throw Failure(kBadInput,
+                  "replay: give one of --verify, --from T with --set key=value, --why DRONE with --at T, or none");
+  if (options.at_s && options.why.empty()) throw Failure(kBadInput, "replay: --at T belongs to --why DRONE");
+  const bool shows = asked == 0;
+  if ((shows && options.json) || (!options.from_s && (!options.settings.empty() || !options.out.empty())))
+    throw Failure(kBadInput,
+                  "replay: --set and --out belong to --from T, --json to --verify, --from or --why; give one of these, "
+                  "or leave them out to see the recording in a browser");
+}
+
 }  // namespace
 
 int replay(const ReplayOptions& options, const std::string& version) {
-  if (options.verify && options.from_s)
-    throw Failure(kBadInput, "replay: give either --verify, or --from T with --set key=value, or neither");
-  const bool shows = !options.verify && !options.from_s;
-  if (shows && (options.json || !options.settings.empty() || !options.out.empty()))
-    throw Failure(kBadInput,
-                  "replay: --set and --out belong to --from T, --json to --verify or --from; give one of these, or "
-                  "leave them out to see the recording in a browser");
-  if (shows) return replay_in_console(options.directory, options.console, version);
+  check(options);
+  if (!options.verify && !options.from_s && options.why.empty())
+    return replay_in_console(options.directory, options.console, version);
   ChosenRecording chosen = choose_recording(options.directory);
   const runtime::Mission& mission = chosen.mission;
   runtime::ReplayedFlight flight(std::move(chosen.recording));
+  if (!options.why.empty()) return print_reasons(options, flight, mission);
   return options.from_s ? print_two_flights(options, flight, mission) : print_verdict(options, flight, mission);
 }
 

@@ -132,6 +132,12 @@ Motion SwarmState::next_motion(DroneId drone) const noexcept {
   return flown_.ahead(drone.index(), motions_[drone.index()], parameters_.dt_s, parameters_.barrier.lag_s);
 }
 
+safety::Explanation SwarmState::explain(DroneId drone) const {
+  assert(ticks_ > 0 && drone.index() < drones_.size());
+  safety::Filter filter = filter_;  // its work space is not this state's business
+  return filter.explain(drone.index(), bodies_, target_.no_fly, u_nom_[drone.index()]);
+}
+
 void SwarmState::become_model(double dt_s) {
   parameters_.dt_s = dt_s;
   parameters_.barrier.dt_s = dt_s;

@@ -44,6 +44,10 @@ class SwarmState {
   /// drone.index() < parameters().drones.
   [[nodiscard]] Motion next_motion(DroneId drone) const noexcept;
 
+  /// What the safety filter did to a drone in the newest tick, in full. Field frame. Allocates. Precondition: ticks() >
+  /// 0, drone.index() < parameters().drones.
+  [[nodiscard]] safety::Explanation explain(DroneId drone) const;
+
   /// Makes a copy into a model of the flight: from now on a tick lasts dt_s, and what it orders acts at once on drones
   /// that are seen as they are. For looking ahead, from next_motion() on: where delays are made up for, the flight goes
   /// like that, by so much later. Precondition: dt_s > 0. Allocates.

@@ -86,6 +86,18 @@ void Filter::run(std::span<const Body> bodies, std::span<const field::Segment> n
   }
 }
 
+Explanation Filter::explain(std::size_t own, std::span<const Body> bodies, std::span<const field::Segment> no_fly,
+                            const Vec2& u_nom) {
+  assert(own < bodies.size() && bodies.size() <= points_.size());
+  Explanation why;
+  why.u_nom = u_nom;
+  row_count_ = 0;
+  place(bodies);
+  if (bodies[own].is_controlled) steer(own, bodies, no_fly, u_nom, why.u, why.report);
+  why.rows.assign(rows_.begin(), rows_.begin() + static_cast<std::ptrdiff_t>(row_count_));
+  return why;
+}
+
 void Filter::place(std::span<const Body> bodies) noexcept {
   for (std::size_t i = 0; i < bodies.size(); ++i) {
     const bool is_seen = bodies[i].is_obstacle && is_finite(bodies[i]);
@@ -215,7 +227,9 @@ void Filter::gather_ways_out(const Vec2& z, const Body& own, std::span<const fie
 }
 
 void Filter::add(const HalfPlane& half_plane, const HoldingRow& what, FilterReport& report) noexcept {
-  const auto presses_more = [](const Row& a, const Row& b) { return pressure(a.half_plane) > pressure(b.half_plane); };
+  const auto presses_more = [](const GivenRow& a, const GivenRow& b) {
+    return pressure(a.half_plane) > pressure(b.half_plane);
+  };
   if (row_count_ < kMaxRows) {
     rows_[row_count_++] = {half_plane, what};
     if (row_count_ == kMaxRows) std::make_heap(rows_.begin(), rows_.end(), presses_more);

@@ -37,6 +37,20 @@ struct FilterReport {
   double nearest_distance_m = 0.0;
 };
 
+/// A constraint of (10) as one drone was given it.
+struct GivenRow {
+  HalfPlane half_plane;
+  HoldingRow what;
+};
+
+/// Why one drone's velocity is what it is.
+struct Explanation {
+  Vec2 u_nom = Vec2::Zero();   ///< what was wanted, m/s
+  Vec2 u = Vec2::Zero();       ///< what the filter made of it, m/s
+  std::vector<GivenRow> rows;  ///< all that the solver was given, of the relaxed problem where that was needed
+  FilterReport report;
+};
+
 /// The safety filter: (10) solved exactly for every controlled drone, with gamma_d(h) = min(gamma(h), h / (2 dt)) for
 /// pairs and h / dt for walls, no-fly edges and bodies nobody controls, so that zero-order hold never breaks the
 /// guarantee; for h < 0 a linear rate of escape. Owns its work space, sized by `capacity` drones: run() allocates
@@ -51,14 +65,14 @@ class Filter {
   void run(std::span<const Body> bodies, std::span<const field::Segment> no_fly, std::span<const Vec2> u_nom,
            std::span<Vec2> u, std::span<FilterReport> reports) noexcept;
 
+  /// What run() does to one drone, in full; no rows where it is not controlled. Allocates. Preconditions of run(), and
+  /// own < bodies.size().
+  [[nodiscard]] Explanation explain(std::size_t own, std::span<const Body> bodies,
+                                    std::span<const field::Segment> no_fly, const Vec2& u_nom);
+
   [[nodiscard]] const BarrierParameters& parameters() const { return parameters_; }
 
  private:
-  struct Row {
-    HalfPlane half_plane;
-    HoldingRow what;
-  };
-
   void place(std::span<const Body> bodies) noexcept;
   void steer(std::size_t own, std::span<const Body> bodies, std::span<const field::Segment> no_fly, const Vec2& u_nom,
              Vec2& u, FilterReport& report) noexcept;
@@ -78,7 +92,7 @@ class Filter {
   NeighbourGrid grid_;
   std::vector<Vec2> points_;  ///< barrier_point() of every body; NaN where it is no obstacle for anybody
   double reach_m_ = 0.0;      ///< no body farther than this from another's point has a row
-  std::array<Row, kMaxRows> rows_;
+  std::array<GivenRow, kMaxRows> rows_;
   std::array<HalfPlane, kMaxRows> half_planes_;  ///< of rows_, as the solver takes them
   std::size_t row_count_ = 0;
 };

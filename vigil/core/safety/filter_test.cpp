@@ -245,6 +245,29 @@ TEST_P(FilterTest, The_same_input_gives_the_same_bits) {
   EXPECT_EQ(u_, first);
 }
 
+TEST_P(FilterTest, An_explanation_tells_the_rows_that_made_the_velocity_and_changes_nothing) {
+  no_fly_ = field::edges({{Vec2(1.0, 1.0), Vec2(2.0, 1.0), Vec2(2.0, 2.0), Vec2(1.0, 2.0)}});
+  add(2.81, 0.5);
+  add(2.81, 0.74);
+  add(1.5, 0.85);
+  bodies_.emplace_back(bodies_[0]).is_controlled = false;
+  bodies_.back().position = Vec2(0.5, 2.5);
+  const std::array u_nom{Vec2(0.3, 0.1), Vec2(0.2, -0.3), Vec2(0.0, 0.3), Vec2(0.1, 0.0)};
+  run(u_nom);
+  const std::vector<Vec2> u = u_;
+  for (std::size_t own = 0; own < bodies_.size(); ++own) {
+    const Explanation why = filter_.explain(own, bodies_, no_fly_, u_nom[own]);
+    EXPECT_EQ(why.u_nom, u_nom[own]);
+    EXPECT_EQ(why.u, u[own]);
+    EXPECT_EQ(why.report.holding_count, reports_[own].holding_count);
+    EXPECT_EQ(why.rows.empty(), !bodies_[own].is_controlled);
+    for (const GivenRow& row : why.rows)
+      EXPECT_GE(row.half_plane.normal.dot(why.u), row.half_plane.offset - 1e-9 * row.half_plane.normal.norm());
+  }
+  run(u_nom);
+  EXPECT_EQ(u_, u);
+}
+
 TEST_P(FilterTest, A_tick_allocates_nothing) {
   std::mt19937_64 random(2);
   std::uniform_real_distribution<double> coordinate(0.0, 3.0);
