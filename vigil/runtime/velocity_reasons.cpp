@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <string_view>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -58,7 +60,9 @@ std::vector<Row> normalised(const safety::Explanation& why) {
     rows.push_back(row);
   }
   mark_holding(rows, why.report);
-  std::ranges::stable_sort(rows, {}, &Row::slack_m_s);
+  std::ranges::sort(rows, {}, [](const Row& row) {
+    return std::tuple(row.slack_m_s, row.about.kind, row.about.index, row.priority);
+  });
   return rows;
 }
 
