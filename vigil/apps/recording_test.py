@@ -144,6 +144,15 @@ class Recordings(unittest.TestCase):
             result = run("replay", out, *wrong)
             self.assertEqual((result.returncode, len(result.stderr.splitlines())), (2, 1), result.stderr)
 
+    def test_ticks_that_are_taken_away_from_the_end_are_missed(self):
+        out = self.simulated("paper.yaml", "--seconds", 10)
+        with contextlib.closing(sqlite3.connect(out / "recording" / "recording_0.db3")) as database:
+            database.executemany("DELETE FROM messages WHERE id = ?", [(n,) for n, _ in ticks_in(database)[-50:]])
+            database.commit()
+        code, verdict = verified(out)
+        self.assertEqual((code, verdict["same"]), (1, 450))
+        self.assertIn("50", verdict["cannot"])
+
     def test_tables_have_a_line_of_every_tick(self):
         out = self.simulated("paper.yaml", "--seconds", 10)
         result = run("export", out, "--out", self.folder / "tables")

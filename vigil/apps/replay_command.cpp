@@ -54,6 +54,8 @@ Verdict verify(runtime::ReplayedFlight& flight) {
       progress.show(static_cast<double>(verdict.same) / static_cast<double>(flight.tick_count()),
                     fmt::format("{:.0f} s", flight.snapshot().time_s));
   }
+  if (const std::uint64_t missing = flight.recording().missing_ticks(); missing > 0)
+    verdict.cannot = fmt::format("{} more ticks were kept, and are not there any more", missing);
   return verdict;
 }
 

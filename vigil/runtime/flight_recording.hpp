@@ -35,7 +35,9 @@ class FlightRecording {
   virtual void read(std::uint64_t number, RecordedTick& into) = 0;
   [[nodiscard]] virtual std::span<const RecordedTargets> targets() const = 0;  ///< in the order of time
   [[nodiscard]] virtual std::span<const LoggedEvent> events() const = 0;       ///< in the order of time
-  /// Why it is not whole, for people; empty where it was finished.
+  /// How many ticks it kept, as it says itself at its end, that are not there any more. 0 where it was not finished.
+  [[nodiscard]] virtual std::uint64_t missing_ticks() const { return 0; }
+  /// Why it is not whole, for people; empty where it was finished, and all that it kept is there.
   [[nodiscard]] virtual const std::string& incomplete_reason() const = 0;
 };
 

@@ -84,7 +84,7 @@ bool QueuedRecorder::write_tick() {
   inner_->record({slot.snapshot, slot.observations, slot.commands, slot.truth, slot.clearances});
   slot.commands.clear();  // here, so that targets that nobody needs any more are not freed by the control thread
   taken_.store(number + 1, std::memory_order_release);
-  kept_.fetch_add(1, std::memory_order_relaxed);
+  if (inner_->trouble().empty()) kept_.fetch_add(1, std::memory_order_relaxed);
   return true;
 }
 

@@ -65,6 +65,33 @@ TEST(QueuedRecorderTest, Everything_arrives_in_order) {
   EXPECT_EQ(recorder.lost_ticks(), 0U);
 }
 
+/// Takes so many ticks, and then no more.
+class FullRecorder final : public Recorder {
+ public:
+  explicit FullRecorder(std::uint64_t room) : room_(room) {}
+  void begin(const Mission&, const FlightStart&) override {}
+  void record(const TickRecord&) noexcept override { is_full_ = ++seen_ > room_; }
+  void log(const LoggedEvent&) noexcept override {}
+  void targets(double, const TargetsSection&) noexcept override {}
+  [[nodiscard]] std::string trouble() const override { return is_full_ ? "the disk is full" : ""; }
+  void finish() override {
+    if (is_full_) throw std::runtime_error("the disk is full");
+  }
+
+ private:
+  std::uint64_t room_;
+  std::uint64_t seen_ = 0;
+  bool is_full_ = false;
+};
+
+TEST(QueuedRecorderTest, What_a_full_disk_does_not_take_is_not_counted_as_kept) {
+  QueuedRecorder recorder(std::make_unique<FullRecorder>(35), small_mission(), {});
+  record_ticks(recorder, 0, 200);
+  EXPECT_THROW(recorder.finish(), std::runtime_error);
+  EXPECT_EQ(recorder.kept_ticks(), 35U);
+  EXPECT_EQ(recorder.lost_ticks(), 0U);
+}
+
 TEST(QueuedRecorderTest, A_disk_that_hangs_delays_no_tick_and_what_it_costs_is_counted) {
   Kept kept;
   kept.is_open = false;

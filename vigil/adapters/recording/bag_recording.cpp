@@ -1,6 +1,7 @@
 #include "vigil/adapters/recording/bag_recording.hpp"
 
 #include <algorithm>
+#include <charconv>
 
 #include <fmt/format.h>
 
@@ -43,7 +44,11 @@ BagRecording::BagRecording(const fs::path& directory) {
   if (!has_head_)
     throw RecordingError(
         fmt::format("{}: the mission's message is missing; it ended before it began", files_.front().path));
-  if (!is_finished_) incomplete_reason_ = "it was not finished: the program was ended, or is still writing";
+  if (!is_finished_)
+    incomplete_reason_ = "it was not finished: the program was ended, or is still writing";
+  else if (missing_ticks() > 0)
+    incomplete_reason_ =
+        fmt::format("{} of the {} ticks that it kept are not there any more", missing_ticks(), kept_ticks_);
 }
 
 void BagRecording::open_file(const fs::path& path) {
@@ -108,10 +113,15 @@ void BagRecording::take_note(const File& file, std::int64_t topic, std::span<con
 void BagRecording::add_event(runtime::LoggedEvent event) {
   if (event.source == kRecorderSource && event.what == kFinished) {
     is_finished_ = true;
+    (void)std::from_chars(event.detail.data(), event.detail.data() + event.detail.size(), kept_ticks_);
     return;
   }
   const auto later = std::ranges::upper_bound(events_, event.time_s, {}, &runtime::LoggedEvent::time_s);
   events_.insert(later, std::move(event));
+}
+
+std::uint64_t BagRecording::missing_ticks() const {
+  return is_finished_ ? kept_ticks_ - std::min<std::uint64_t>(kept_ticks_, ticks_.size()) : 0;
 }
 
 void BagRecording::read(std::uint64_t number, runtime::RecordedTick& into) {

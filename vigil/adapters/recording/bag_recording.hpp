@@ -22,6 +22,7 @@ class BagRecording final : public runtime::FlightRecording {
   void read(std::uint64_t number, runtime::RecordedTick& into) override;
   [[nodiscard]] std::span<const runtime::RecordedTargets> targets() const override { return targets_; }
   [[nodiscard]] std::span<const runtime::LoggedEvent> events() const override { return events_; }
+  [[nodiscard]] std::uint64_t missing_ticks() const override;
   [[nodiscard]] const std::string& incomplete_reason() const override { return incomplete_reason_; }
 
  private:
@@ -55,6 +56,7 @@ class BagRecording final : public runtime::FlightRecording {
   runtime::RecordingHead head_;
   bool has_head_ = false;
   bool is_finished_ = false;
+  std::uint64_t kept_ticks_ = 0;  ///< as it says at its end
   std::vector<File> files_;
   std::vector<Place> ticks_;
   std::vector<runtime::RecordedTargets> targets_;
