@@ -16,6 +16,7 @@
 #include "vigil/apps/fleet_choice.hpp"
 #include "vigil/apps/interrupt.hpp"
 #include "vigil/apps/mission_choice.hpp"
+#include "vigil/apps/ros_side.hpp"
 #include "vigil/apps/text_file.hpp"
 #include "vigil/runtime/controller_setup.hpp"
 #include "vigil/runtime/mission_error.hpp"
@@ -162,6 +163,7 @@ void run(const LaboratoryOptions& options, const runtime::Mission& mission) {
 int laboratory(const LaboratoryOptions& options) {
   check_options(options);
   runtime::Mission mission = choose_mission(options.mission, options.settings);
+  check_ros_names(mission);
   mission.control.rate_hz = kRateHz;
   mission.simulation.start = runtime::StartState::kGrounded;
   catch_interrupts();

@@ -6,6 +6,7 @@ import struct
 import sys
 import time
 import unittest
+import urllib.error
 
 from console_client import WebSocket
 from ros_graph import (
@@ -113,6 +114,16 @@ class TenDrones(unittest.TestCase):
         self.assertGreater(len(found), 10 * 100 * 10)
         # The slowest are those for which the stand-ins waited on a busy machine: they are printed, not judged.
         self.assertLess(median, 10.0)
+
+    def test_motors_of_one_drone_are_stopped_and_no_one_elses(self):
+        command("emergency_stop", drones=["cf10"])
+        until(lambda: drones().get("cf10") == ("emergency_stop", "grounded"), 10, "cf10 has fallen")
+        self.assertTrue(are("active", *self.ids[:9]), drones())
+
+    def test_no_other_mission_is_loaded_while_drones_fly(self):
+        with self.assertRaises(urllib.error.HTTPError) as refused:
+            command("load_mission", yaml=TWO_DRONES)
+        self.assertIn("in the air", refused.exception.read().decode())
 
 
 def send_to(x_m):

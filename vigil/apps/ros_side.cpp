@@ -6,6 +6,9 @@
 
 #include <fmt/format.h>
 
+#include "vigil/adapters/ros/ros_name.hpp"
+#include "vigil/apps/failure.hpp"
+
 namespace vigil::apps {
 namespace {
 
@@ -32,6 +35,13 @@ std::vector<runtime::TargetEdit> removal_of_all(const runtime::Mission& mission)
 }
 
 }  // namespace
+
+void check_ros_names(const runtime::Mission& mission) {
+  std::vector<std::string> ids;
+  for (const runtime::DroneEntry& drone : mission.drones) ids.push_back(drone.id);
+  if (const std::string complaint = ros_bridge::complaint_of_names(ids); !complaint.empty())
+    throw Failure(kBadInput, complaint);
+}
 
 RosSide::RosSide(console::Role role)
     : role_(role), session_("vigil", [this](const std::string& text) { warn(text); }) {}

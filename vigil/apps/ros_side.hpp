@@ -13,6 +13,9 @@
 
 namespace vigil::apps {
 
+/// Throws Failure where two of the mission's drones would have the same ROS name.
+void check_ros_names(const runtime::Mission& mission);
+
 /// The flight that the console serves, seen and steered over ROS as well. Wishes from there take the console's own way:
 /// the same checks, roles, queue and log, under the name "ROS".
 class RosSide {

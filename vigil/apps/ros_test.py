@@ -33,6 +33,7 @@ EVERY_TOPIC = {
         f"/vicon/{one}/{one}", f"/vigil/{one}/age_s", f"/vigil/{one}/path")),
 }  # fmt: skip
 # Of a type that rostopic can echo only where Crazyswarm itself is installed; rosbag can record any.
+STOPS = {f"/{one}/cmd_stop" for one in IDS}
 SETPOINTS = {f"/{one}/cmd_velocity_world" for one in IDS}
 
 
@@ -114,7 +115,7 @@ class TheLaboratory(unittest.TestCase):
         self.assertTrue(are("active", "cf1", "cf3"), drones())
 
     def test_02_every_topic_can_be_echoed(self):
-        self.assertEqual(published_topics(), EVERY_TOPIC | SETPOINTS)
+        self.assertEqual(published_topics(), EVERY_TOPIC | SETPOINTS | STOPS)
         echoes(EVERY_TOPIC)
 
     def test_03_the_metric_comes_down_to_five_percent(self):

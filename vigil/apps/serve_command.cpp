@@ -1,5 +1,6 @@
 #include "vigil/apps/serve_command.hpp"
 
+#include <algorithm>
 #include <chrono>
 #include <cstdio>
 #include <memory>
@@ -74,8 +75,7 @@ std::shared_ptr<runtime::LiveMission> make_flight(const runtime::Mission& missio
   if (saved != nullptr) start.first_intent = swarm::Intent::kHold;
   if (saved != nullptr && saved->past.ticks > 0) start.past = saved->past;
   if (options.fleet == "ros") {
-    // What stands there stays down until somebody lets it take off; what is in the air hovers until somebody resumes
-    // it.
+    // What stands there stays down until somebody lets it take off; what is in the air is somebody else's.
     if (saved == nullptr) start.first_intent = swarm::Intent::kStayDown;
     auto fleet = crazyswarm_fleet(mission, options.ros_tf, [ros](const std::string& text) { ros->warn(text); });
     return std::make_shared<runtime::LiveMission>(mission, std::move(fleet), nullptr,
@@ -86,6 +86,14 @@ std::shared_ptr<runtime::LiveMission> make_flight(const runtime::Mission& missio
   runtime::VirtualFleet* const world = fleet.get();
   return std::make_shared<runtime::LiveMission>(mission, std::move(fleet), world,
                                                 recorder_for(mission, options, start, epoch), start, epoch);
+}
+
+/// A new mission's fleet knows nothing of drones that the old one's flies: they would be nobody's.
+void refuse_in_flight(const runtime::LiveMission& old) {
+  runtime::LiveFrame frame(old.mission().drones.size());
+  std::size_t version = 0;
+  if (!old.read(frame, version) || std::ranges::none_of(frame.snapshot.drones, runtime::is_airborne)) return;
+  throw Failure(kBadInput, "drones of Crazyswarm are in the air; land them before another mission is loaded");
 }
 
 /// What an earlier run left of the same mission; nothing where it left nothing.
@@ -128,16 +136,23 @@ int run(const ServeOptions& options, const std::string& version) {
     if (saved) mission = runtime::parse_mission(saved->targets_text, in_words(options.state));
   }
   std::optional<RosSide> ros;
-  if (options.ros || options.fleet == "ros") ros.emplace(*console::role_of(options.ros_role));
+  const bool is_over_ros = options.ros || options.fleet == "ros";
+  if (is_over_ros) check_ros_names(mission);
+  if (is_over_ros) ros.emplace(*console::role_of(options.ros_role));
   console::ServerOptions served = server_options(options.console, version);
   served.recording_folder = options.record.string();
   if (ros) served.overhear = [&ros](const console::DeskNews& news) { ros->overhear(news); };
   std::string url;
   served.ready = [&] { announce(options, mission.name, url, saved.has_value()); };
+  std::weak_ptr<runtime::LiveMission> newest;
   console::Server server(
       served,
-      [&options, &ros](const runtime::Mission& one, std::uint32_t epoch, const runtime::SavedFlight* of) {
-        return make_flight(one, options, epoch, of, ros ? &*ros : nullptr);
+      [&options, &ros, &newest](const runtime::Mission& one, std::uint32_t epoch, const runtime::SavedFlight* of) {
+        if (ros) check_ros_names(one);
+        if (const auto old = newest.lock(); old && options.fleet == "ros") refuse_in_flight(*old);
+        auto flight = make_flight(one, options, epoch, of, ros ? &*ros : nullptr);
+        newest = flight;
+        return flight;
       },
       store);
   url = server.url();

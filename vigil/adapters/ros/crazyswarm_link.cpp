@@ -12,7 +12,7 @@
 #include <geometry_msgs/TransformStamped.h>
 #include <ros/callback_queue.h>
 #include <ros/ros.h>
-#include <std_srvs/Empty.h>
+#include <std_msgs/Empty.h>
 #include <tf2_msgs/TFMessage.h>
 
 #include "vigil/adapters/ros/crazyswarm_messages.hpp"
@@ -27,8 +27,11 @@ using namespace std::chrono_literals;
 
 constexpr auto kStreamEvery = 20ms;
 constexpr std::size_t kMostErrands = 256;
+constexpr int kStops = 5;  ///< so often motors are told to stop: a setpoint on its way may arrive after the first
 
 std::string without_slash(const std::string& frame) { return frame.rfind('/', 0) == 0 ? frame.substr(1) : frame; }
+
+double steady_s() { return std::chrono::duration<double>(Clock::now().time_since_epoch()).count(); }
 
 /// The newest position of each drone, from ROS' threads to the control thread, which never waits.
 class Sightings {
@@ -37,11 +40,11 @@ class Sightings {
 
   void add(std::size_t drone, const geometry_msgs::TransformStamped& seen) {
     const geometry_msgs::Vector3& place = seen.transform.translation;
-    const double now_s = ros::Time::now().toSec();
-    const double stamp_s = seen.header.stamp.toSec();
+    const double now_s = steady_s();
+    const double measured_s = measured_at(now_s, ros::Time::now().toSec(), seen.header.stamp.toSec());
     const std::lock_guard<std::mutex> lock(mutex_);
     const std::uint64_t number = newest_[drone].number + 1;
-    newest_[drone] = {{place.x, place.y, place.z}, stamp_s, now_s, number};
+    newest_[drone] = {{place.x, place.y, place.z}, measured_s, now_s, number};
   }
 
   Sighting take(std::size_t drone) noexcept {
@@ -63,10 +66,13 @@ class CrazyswarmLink final : public CrazyswarmPort {
         sightings_(setup.drones.size()),
         mine_(setup.drones.size()),
         set_(setup.drones.size()),
-        connected_(setup.drones.size()) {
+        connected_(setup.drones.size()),
+        stops_left_(setup.drones.size()) {
     node_.setCallbackQueue(&queue_);
-    for (const std::string& id : setup_.drones)
+    for (const std::string& id : setup_.drones) {
       velocities_.push_back(node_.advertise<crazyswarm::VelocityWorld>(ros_name(id) + "/cmd_velocity_world", 1));
+      stops_.push_back(node_.advertise<std_msgs::Empty>(ros_name(id) + "/cmd_stop", 1));
+    }
     listen();
     runtime::start_with_real_time_priority([this] { spinner_.start(); });
     streamer_ = std::thread([this] { stream(); });
@@ -86,7 +92,7 @@ class CrazyswarmLink final : public CrazyswarmPort {
   CrazyswarmLink(const CrazyswarmLink&) = delete;
   CrazyswarmLink& operator=(const CrazyswarmLink&) = delete;
 
-  [[nodiscard]] double now_s() const noexcept override { return ros::Time::now().toSec(); }
+  [[nodiscard]] double now_s() const noexcept override { return steady_s(); }
   [[nodiscard]] Sighting newest(std::size_t drone) noexcept override { return sightings_.take(drone); }
   [[nodiscard]] bool is_connected(std::size_t drone) noexcept override { return connected_[drone]; }
   void set(std::size_t drone, const Setpoint& setpoint) noexcept override { mine_[drone] = setpoint; }
@@ -103,11 +109,13 @@ class CrazyswarmLink final : public CrazyswarmPort {
   }
 
   [[nodiscard]] bool call(std::size_t drone, VehicleCall call) noexcept override {
-    return queue({drone, call, drone}, call == VehicleCall::kEmergency);
+    if (call != VehicleCall::kEmergency) return queue({drone, call, drone});
+    stops_left_[drone] = kStops;  // the streamer sends them, behind nobody's service
+    return true;
   }
 
   [[nodiscard]] bool tell_mistaken(std::size_t drone, std::size_t other) noexcept override {
-    return queue({drone, std::nullopt, other}, false);
+    return queue({drone, std::nullopt, other});
   }
 
  private:
@@ -118,14 +126,11 @@ class CrazyswarmLink final : public CrazyswarmPort {
     std::size_t mistaken_for = 0;
   };
 
-  [[nodiscard]] bool queue(const Errand& errand, bool is_urgent) noexcept {
+  [[nodiscard]] bool queue(const Errand& errand) noexcept {
     {
       const std::unique_lock<std::mutex> lock(errands_mutex_, std::try_to_lock);
       if (!lock.owns_lock() || errands_.size() >= kMostErrands) return false;
-      if (is_urgent)
-        errands_.push_front(errand);
-      else
-        errands_.push_back(errand);
+      errands_.push_back(errand);
     }
     wake_caller_.notify_one();
     return true;
@@ -180,13 +185,22 @@ class CrazyswarmLink final : public CrazyswarmPort {
     message.header.stamp = ros::Time::now();
     for (std::size_t i = 0; i < setpoints.size(); ++i) {
       connected_[i] = velocities_[i].getNumSubscribers() > 0;
-      if (!setpoints[i].is_streamed) continue;
+      if (stops(i, setpoints[i].is_streamed) || !setpoints[i].is_streamed) continue;
       const Point velocity = stand ? setpoints[i].velocity_m_s : Point{};
       message.vel.x = velocity.x;
       message.vel.y = velocity.y;
       message.vel.z = velocity.z;
       velocities_[i].publish(message);
     }
+  }
+
+  /// Whether the drone's motors are told to stop, and it gets no setpoint, which would start them again: until a few
+  /// were sent after the control thread had ended its stream.
+  bool stops(std::size_t drone, bool is_streamed) {
+    if (stops_left_[drone] == 0) return false;
+    stops_[drone].publish(std_msgs::Empty());
+    if (!is_streamed) --stops_left_[drone];
+    return true;
   }
 
   void run_errands() {
@@ -221,11 +235,8 @@ class CrazyswarmLink final : public CrazyswarmPort {
         ask(id, "land", height_request<crazyswarm::LandRequest>(0.0, setup_.landing_s));
         return;
       }
-      case VehicleCall::kEmergency: {
-        std_srvs::Empty nothing;
-        report(id, "emergency", ros::service::call("/" + ros_name(id) + "/emergency", nothing));
-        return;
-      }
+      case VehicleCall::kEmergency:
+        return;  // the streamer's
     }
   }
 
@@ -256,6 +267,7 @@ class CrazyswarmLink final : public CrazyswarmPort {
   ros::NodeHandle node_{"/"};
   std::vector<ros::Subscriber> positions_;
   std::vector<ros::Publisher> velocities_;
+  std::vector<ros::Publisher> stops_;
   ros::AsyncSpinner spinner_{1, &queue_};
   std::atomic<bool> is_over_{false};
 
@@ -266,6 +278,7 @@ class CrazyswarmLink final : public CrazyswarmPort {
   Clock::time_point set_at_{};
   bool is_new_ = false;
   std::vector<std::atomic<bool>> connected_;
+  std::vector<std::atomic<int>> stops_left_;
   std::thread streamer_;
 
   std::mutex errands_mutex_;

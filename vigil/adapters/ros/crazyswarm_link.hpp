@@ -20,8 +20,9 @@ struct CrazyswarmSetup {
 };
 
 /// Over ROS: /vicon/<drone>/<drone> (or /tf from world to <drone>) in; /<drone>/cmd_velocity_world out, again and again
-/// at 50 Hz and at once when a new one is there; services /<drone>/takeoff, land, notify_setpoints_stop, emergency.
-/// Needs a Session.
+/// at 50 Hz and at once when a new one is there; services /<drone>/takeoff, land, notify_setpoints_stop; motors are
+/// stopped by the topic /<drone>/cmd_stop (the service `emergency` is Crazyswarm's own, and stops everybody's). Needs a
+/// Session.
 [[nodiscard]] std::unique_ptr<CrazyswarmPort> link_to_crazyswarm(const CrazyswarmSetup& setup);
 
 }  // namespace vigil::ros_bridge

@@ -7,13 +7,19 @@
 
 namespace vigil::ros_bridge {
 
-/// A position as the tracker sent it: world frame, seconds of the clock of Port::now_s().
+/// A position as the tracker sent it: world frame, seconds of the clock of CrazyswarmPort::now_s().
 struct Sighting {
   Point place;
-  double measured_s = 0.0;  ///< by the tracker's stamp, which may be nonsense
+  double measured_s = 0.0;  ///< by the tracker's stamp, which may be nonsense: measured_at()
   double received_s = 0.0;
   std::uint64_t number = 0;  ///< of this drone's, counted from 1; 0: none yet
 };
+
+/// When a position was measured, by the steady clock: as long before it arrived as its stamp lay behind the wall clock
+/// then. A wall clock that is set moves the one message that it is set under way, and none after it.
+[[nodiscard]] inline double measured_at(double arrived_s, double wall_at_arrival_s, double stamp_s) {
+  return arrived_s - (wall_at_arrival_s - stamp_s);
+}
 
 /// What is streamed to one drone.
 struct Setpoint {
@@ -28,7 +34,7 @@ class CrazyswarmPort {
  public:
   virtual ~CrazyswarmPort() = default;
 
-  /// Of the clock that ROS stamps go by.
+  /// Of a steady clock: ages and timeouts do not depend on a wall clock, which may be set.
   [[nodiscard]] virtual double now_s() const noexcept = 0;
   /// The newest that arrived; number 0 where nothing has.
   [[nodiscard]] virtual Sighting newest(std::size_t drone) noexcept = 0;

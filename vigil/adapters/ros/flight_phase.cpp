@@ -7,6 +7,9 @@ using swarm::Action;
 using swarm::VehicleMode;
 
 constexpr double kDownForS = 0.3;
+constexpr double kUpForS = 0.3;
+constexpr double kComesUpWithinS =
+    10.0;                            ///< of an order to take off, on top of how long it takes: services may be slow
 constexpr double kGraceS = 2.0;      ///< on top of how long a manoeuvre takes
 constexpr double kStopAgainS = 0.5;  ///< motors are told to stop until they have
 constexpr double kShareOfAltitude = 0.9;
@@ -21,23 +24,33 @@ bool FlightPhase::flies() const { return mode_ == VehicleMode::kFlying || mode_ 
 void FlightPhase::watch(double height_m, double age_s, double now_s) {
   if (!(age_s < kFreshS)) return;
   const bool is_low = height_m < parameters_.landed_height_m;
-  if (mode_ == VehicleMode::kUnknown) mode_ = is_low ? VehicleMode::kGrounded : VehicleMode::kFlying;
+  if (mode_ == VehicleMode::kUnknown) mode_ = is_low ? VehicleMode::kGrounded : VehicleMode::kManual;
   if (mode_ == VehicleMode::kTakingOff) {
     if (height_m >= kShareOfAltitude * parameters_.altitude_m) mode_ = VehicleMode::kFlying;
     if (is_low && now_s - called_s_ > parameters_.take_off_s + kGraceS) mode_ = VehicleMode::kGrounded;
     return;
   }
-  watch_ground(height_m, now_s);
+  watch_height(height_m, now_s);
 }
 
-void FlightPhase::watch_ground(double height_m, double now_s) {
-  if (height_m >= parameters_.landed_height_m) {
-    down_since_s_ = -1.0;
-    // Somebody else started it.
-    if (mode_ == VehicleMode::kGrounded && height_m >= kShareOfAltitude * parameters_.altitude_m)
-      mode_ = VehicleMode::kFlying;
-    return;
+bool FlightPhase::may_come_up(double now_s) const {
+  return now_s - take_off_s_ <= parameters_.take_off_s + kComesUpWithinS;
+}
+
+void FlightPhase::watch_above_ground(double height_m, double now_s) {
+  down_since_s_ = -1.0;
+  if (up_since_s_ < 0.0) up_since_s_ = now_s;
+  if (mode_ != VehicleMode::kGrounded) return;
+  if (!may_come_up(now_s)) {
+    if (now_s - up_since_s_ >= kUpForS) mode_ = VehicleMode::kManual;
+  } else if (height_m >= kShareOfAltitude * parameters_.altitude_m) {
+    mode_ = VehicleMode::kFlying;
   }
+}
+
+void FlightPhase::watch_height(double height_m, double now_s) {
+  if (height_m >= parameters_.landed_height_m) return watch_above_ground(height_m, now_s);
+  up_since_s_ = -1.0;
   if (down_since_s_ < 0.0) down_since_s_ = now_s;
   if (now_s - down_since_s_ >= kDownForS) mode_ = VehicleMode::kGrounded;
 }
@@ -60,6 +73,7 @@ std::optional<VehicleCall> FlightPhase::call_for(Action action, double age_s, do
 void FlightPhase::called(VehicleCall call, double now_s) {
   called_s_ = now_s;
   down_since_s_ = -1.0;
+  take_off_s_ = call == VehicleCall::kTakeOff ? now_s : -1e9;
   switch (call) {
     case VehicleCall::kTakeOff:
       mode_ = VehicleMode::kTakingOff;

@@ -16,13 +16,18 @@ struct PhaseParameters {
   double land_unseen_s = 5.0;  ///< in the air without a position for so long: it is landed
 };
 
-/// What a Crazyflie is doing, which Crazyswarm does not say: told from its height and from what was asked of it. In the
-/// air it flies, until a landing was asked for, by an order or because nobody sees it any more; then it lands, whatever
-/// is ordered, until it is seen on the ground. One thread.
+/// What a Crazyflie is doing, which Crazyswarm does not say: told from its height and from what was asked of it. Only
+/// one that was asked to take off flies, until a landing was asked for, by an order or because nobody sees it any more;
+/// then it lands, whatever is ordered, until it is seen on the ground. One that is above the ground for any other
+/// reason (on a box, lifted by hand, started by somebody else) is somebody else's, until it is seen on the ground. One
+/// thread.
 ///
-///     (first sight) -> kGrounded | kFlying          by height
+///     (first sight) -> kGrounded | kManual          by height
 ///     kGrounded  -> kTakingOff                      an order to take off, passed on
 ///     kTakingOff -> kFlying | kGrounded             at nine tenths of the altitude | not up in time
+///     kGrounded  -> kFlying                         at nine tenths of the altitude, not long after that order
+///     kGrounded  -> kManual                         seen above the ground for 0.3 s otherwise
+///     kManual    -> kGrounded                       seen on the ground for 0.3 s
 ///     kFlying    -> kLanding                        an order to land, or unseen for land_unseen_s
 ///     kFlying    -> kGrounded                       seen on the ground for 0.3 s
 ///     kLanding   -> kGrounded                       seen on the ground for 0.3 s
@@ -45,12 +50,16 @@ class FlightPhase {
   void called(VehicleCall call, double now_s);
 
  private:
-  void watch_ground(double height_m, double now_s);
+  void watch_height(double height_m, double now_s);
+  void watch_above_ground(double height_m, double now_s);
+  [[nodiscard]] bool may_come_up(double now_s) const;
 
   PhaseParameters parameters_;
   swarm::VehicleMode mode_ = swarm::VehicleMode::kUnknown;
-  double called_s_ = -1e9;  ///< when the last call was passed on
+  double called_s_ = -1e9;    ///< when the last call was passed on
+  double take_off_s_ = -1e9;  ///< when a take-off was passed on that no landing has followed
   double down_since_s_ = -1.0;
+  double up_since_s_ = -1.0;
 };
 
 }  // namespace vigil::ros_bridge

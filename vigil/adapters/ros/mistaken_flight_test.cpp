@@ -38,6 +38,7 @@ class Pair {
     const double along_rad = between(0.0, 6.28);
     places_[1] = places_[0] + apart_m * Vec2(std::cos(along_rad), std::sin(along_rad));
     for (Vec2& velocity : velocities_) velocity = any_velocity();
+    take_off();
   }
 
   void fly(double for_s) {
@@ -70,6 +71,17 @@ class Pair {
   Vec2 any_velocity() {
     const double angle_rad = between(0.0, 6.28);
     return between(0.0, kSpeed) * Vec2(std::cos(angle_rad), std::sin(angle_rad));
+  }
+
+  void take_off() {
+    for (double height_m = 0.0; height_m <= 0.5; height_m += 0.25 * kTickS) {
+      wire_->time_s += kTickS;
+      for (std::size_t i = 0; i < 2; ++i) wire_->see(i, {places_[i].x(), places_[i].y(), height_m});
+      wire_->see(2, {-1.4, -1.4, height_m});
+      fleet_->observe(runtime::MissionTime(0), seen_);
+      fleet_->order(runtime::MissionTime(0),
+                    std::vector<swarm::DroneOrder>(seen_.size(), {Action::kTakeOff, Vec2::Zero()}));
+    }
   }
 
   void tick() {

@@ -7,6 +7,7 @@ namespace vigil::ros_bridge {
 namespace {
 
 constexpr double kSmoothingS = 0.05;
+constexpr double kLeastStepS = 1e-3;
 constexpr double kFliesOnS = 0.1;  ///< for so long a drone that is not seen is expected to keep its velocity
 
 bool is_finite(const Point& p) { return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z); }
@@ -61,6 +62,7 @@ PositionGate::Verdict PositionGate::judge(const Sighting& sighting, double measu
   if (sighting.received_s - changed_s_ > parameters_.frozen_s) return Verdict::kFrozen;
   if (is_anothers) return Verdict::kAnothers;
   if (!has_seen_) return Verdict::kBelieved;
+  if (measured_s - measured_s_ < kLeastStepS) return Verdict::kOlder;
   const double unseen_s = std::clamp(measured_s - measured_s_, 0.0, parameters_.most_reach_s);
   if (distance(sighting.place, place_) <= parameters_.slack_m + parameters_.reach_m_s * unseen_s) {
     settling_since_s_ = -1.0;
@@ -78,10 +80,8 @@ bool PositionGate::is_settled(const Sighting& sighting) {
 }
 
 void PositionGate::believe(const Point& place, double measured_s) {
-  const double dt_s = measured_s - measured_s_;
-  constexpr double kLeastStep = 1e-3;
-  if (has_seen_ && dt_s < kLeastStep) return;
   if (has_seen_) {
+    const double dt_s = measured_s - measured_s_;
     const double share = dt_s / (dt_s + kSmoothingS);
     velocity_.x += share * ((place.x - place_.x) / dt_s - velocity_.x);
     velocity_.y += share * ((place.y - place_.y) / dt_s - velocity_.y);

@@ -17,12 +17,12 @@ struct GateParameters {
       1.0;  ///< of a drone that does not fly (people carry it, it falls) a new place is believed after so long
 };
 
-/// Which of a tracker's positions are believed. One that is late, repeated to the last bit, not a number, or farther
-/// from the last believed one than the drone can have flown, is as good as none: what is known only grows older. So is
-/// one that is known to be of another drone's body (MistakenBodies), however near. One thread.
+/// Which of a tracker's positions are believed. One that is late, older than what is known, repeated to the last bit,
+/// not a number, or farther from the last believed one than the drone can have flown, is as good as none: what is known
+/// only grows older. So is one that is known to be of another drone's body (MistakenBodies), however near. One thread.
 class PositionGate {
  public:
-  enum class Verdict : std::uint8_t { kNothingNew, kBelieved, kLate, kFrozen, kAnothers, kJumped, kNotANumber };
+  enum class Verdict : std::uint8_t { kNothingNew, kBelieved, kLate, kOlder, kFrozen, kAnothers, kJumped, kNotANumber };
 
   explicit PositionGate(const GateParameters& parameters) : parameters_(parameters) {}
 

@@ -119,6 +119,30 @@ TEST(PositionGate, A_stamp_that_makes_no_sense_counts_as_now) {
   }
 }
 
+TEST(PositionGate, A_wall_clock_that_is_set_back_leaves_positions_fresh_and_followed) {
+  PositionGate gate(kParameters);
+  double wall_s = 1.7e9;
+  for (std::uint64_t i = 1; i <= 400; ++i) {
+    const double steady_s = 50.0 + 0.01 * static_cast<double>(i);
+    wall_s += i == 200 ? -20.0 : 0.01;
+    const Point place{0.002 * static_cast<double>(i), 0.0, 0.5};
+    const Sighting sighting{place, measured_at(steady_s, wall_s, wall_s - 0.004), steady_s, i};
+    EXPECT_EQ(gate.look(sighting, true), Verdict::kBelieved);
+    EXPECT_EQ(gate.place().x, place.x);
+    EXPECT_NEAR(gate.age_s(steady_s), 0.004, 1e-6);
+  }
+  EXPECT_NEAR(gate.velocity().x, 0.2, 1e-3);
+}
+
+TEST(PositionGate, What_is_older_than_what_is_known_is_told_apart_and_ages_go_on) {
+  PositionGate gate(kParameters);
+  EXPECT_EQ(gate.look({{0.0, 0.0, 0.5}, 10.0, 10.0, 1}, true), Verdict::kBelieved);
+  EXPECT_EQ(gate.look({{0.01, 0.0, 0.5}, 9.95, 10.01, 2}, true), Verdict::kOlder);
+  EXPECT_EQ(gate.place().x, 0.0);
+  EXPECT_NEAR(gate.age_s(10.01), 0.01, 1e-9);
+  EXPECT_EQ(gate.look({{0.02, 0.0, 0.5}, 10.02, 10.02, 3}, true), Verdict::kBelieved);
+}
+
 TEST(PositionGate, What_is_not_a_number_is_not_believed) {
   PositionGate gate(kParameters);
   Tracker tracker;

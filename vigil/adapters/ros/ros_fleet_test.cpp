@@ -37,9 +37,17 @@ class RosFleetTest : public ::testing::Test {
     for (double t = 0.0; t < for_s; t += kTick) tick(action, velocity, is_seen);
   }
   void fly() {
-    place_.z = 0.5;
+    place_.z = 0.0;
+    ticks(0.5, Action::kTakeOff);
+    climb_to(0.5);
     ticks(0.2, Action::kVelocity);
+    wire_->calls.clear();
     ASSERT_EQ(seen_[0].mode, VehicleMode::kFlying);
+  }
+  /// At a quarter of a metre per second.
+  void climb_to(double height_m) {
+    for (; place_.z < height_m; place_.z += 0.005) tick(Action::kVelocity);
+    place_.z = height_m;
   }
   [[nodiscard]] int count(VehicleCall call) const {
     int found = 0;
@@ -90,6 +98,54 @@ TEST_F(RosFleetTest, Nobody_takes_off_whose_tracker_is_silent) {
   wire_->calls.clear();
   ticks(8.0, Action::kTakeOff, Vec2::Zero(), false);
   EXPECT_EQ(count(VehicleCall::kTakeOff), 0);
+}
+
+TEST_F(RosFleetTest, What_is_first_seen_above_the_ground_gets_no_setpoint_and_is_not_flown) {
+  for (const double height_m : {0.1, 0.5}) {
+    place_.z = height_m;
+    ticks(3.0, Action::kVelocity, {0.2, 0.0});
+    EXPECT_EQ(seen_[0].mode, VehicleMode::kManual);
+    EXPECT_FALSE(setpoint().is_streamed);
+    ticks(6.0, Action::kTakeOff, Vec2::Zero(), false);
+    EXPECT_TRUE(wire_->calls.empty());
+  }
+}
+
+TEST_F(RosFleetTest, A_drone_that_is_lifted_by_hand_gets_no_setpoint_until_it_was_put_down_and_took_off) {
+  tick(Action::kNone);
+  climb_to(0.6);
+  ticks(2.0, Action::kTakeOff);
+  EXPECT_EQ(seen_[0].mode, VehicleMode::kManual);
+  EXPECT_FALSE(setpoint().is_streamed);
+  EXPECT_TRUE(wire_->calls.empty());
+  for (; place_.z > 0.0; place_.z -= 0.005) tick(Action::kNone);
+  place_.z = 0.0;
+  ticks(0.5, Action::kNone);
+  EXPECT_EQ(seen_[0].mode, VehicleMode::kGrounded);
+  fly();
+  EXPECT_TRUE(setpoint().is_streamed);
+}
+
+TEST_F(RosFleetTest, A_drone_that_is_lifted_after_its_landing_gets_no_setpoint) {
+  fly();
+  ticks(0.1, Action::kLand);
+  for (; place_.z > 0.0; place_.z -= 0.005) tick(Action::kLand);
+  place_.z = 0.0;
+  ticks(0.5, Action::kNone);
+  climb_to(0.6);
+  ticks(1.0, Action::kVelocity, {0.2, 0.0});
+  EXPECT_EQ(seen_[0].mode, VehicleMode::kManual);
+  EXPECT_FALSE(setpoint().is_streamed);
+}
+
+TEST_F(RosFleetTest, A_take_off_that_Crazyswarm_was_slow_to_begin_is_flown) {
+  ticks(0.5, Action::kTakeOff);
+  ticks(5.0, Action::kVelocity);
+  EXPECT_EQ(seen_[0].mode, VehicleMode::kGrounded);
+  climb_to(0.5);
+  ticks(0.2, Action::kVelocity);
+  EXPECT_EQ(seen_[0].mode, VehicleMode::kFlying);
+  EXPECT_TRUE(setpoint().is_streamed);
 }
 
 TEST_F(RosFleetTest, Velocities_pass_and_height_is_kept) {

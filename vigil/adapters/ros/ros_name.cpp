@@ -1,5 +1,7 @@
 #include "vigil/adapters/ros/ros_name.hpp"
 
+#include <map>
+
 namespace vigil::ros_bridge {
 namespace {
 
@@ -15,6 +17,17 @@ std::string ros_name(const std::string& id) {
     if (!is_letter(c) && !is_digit(c)) c = '_';
   if (name.empty() || !is_letter(name.front())) name.insert(0, "d");
   return name;
+}
+
+std::string complaint_of_names(const std::vector<std::string>& ids) {
+  std::map<std::string, std::string> owners;
+  for (const std::string& id : ids) {
+    const auto [owner, is_new] = owners.emplace(ros_name(id), id);
+    if (!is_new)
+      return "drones " + owner->second + " and " + id + " have the same ROS name, " + owner->first +
+             "; ids must differ in letters and digits over ROS: rename one of them";
+  }
+  return {};
 }
 
 std::string vicon_topic(const std::string& id) {

@@ -156,6 +156,13 @@ TEST(Scene, What_is_not_known_is_not_plotted) {
   EXPECT_NE(std::ranges::find(figures, "smallest_distance_m", &Figure::name), figures.end());
 }
 
+TEST(RosName, Two_ids_of_one_ROS_name_are_complained_of_by_both_names) {
+  EXPECT_EQ(complaint_of_names({"cf1", "cf_1", "1", "d2"}), "");
+  const std::string complaint = complaint_of_names({"a", "cf-1", "cf_1"});
+  EXPECT_NE(complaint.find("cf-1 and cf_1"), std::string::npos) << complaint;
+  EXPECT_NE(complaint_of_names({"1", "d1"}), "");
+}
+
 TEST(RosName, Is_one_that_ROS_accepts) {
   EXPECT_EQ(ros_name("cf1"), "cf1");
   EXPECT_EQ(ros_name("7 of 9"), "d7_of_9");

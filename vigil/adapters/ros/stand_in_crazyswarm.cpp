@@ -3,7 +3,7 @@
 
 #include <ros/callback_queue.h>
 #include <ros/ros.h>
-#include <std_srvs/Empty.h>
+#include <std_msgs/Empty.h>
 #include <tf2_msgs/TFMessage.h>
 
 #include "vigil/adapters/ros/crazyswarm_messages.hpp"
@@ -80,11 +80,9 @@ class StandInCrazyswarm::Wire {
     serve<crazyswarm::TakeoffRequest>(i, "takeoff", [](Told& told) { told.take_off = true; });
     serve<crazyswarm::LandRequest>(i, "land", [](Told& told) { told.land = true; });
     serve<crazyswarm::NotifySetpointsStopRequest>(i, "notify_setpoints_stop", [](Told&) {});
-    keep(node_.advertiseService<std_srvs::Empty::Request, std_srvs::Empty::Response>(
-        "/" + names_[i] + "/emergency", [this, i](std_srvs::Empty::Request&, std_srvs::Empty::Response&) {
-          note(i, [](Told& told) { told.stop_motors = true; });
-          return true;
-        }));
+    inputs_.push_back(node_.subscribe<std_msgs::Empty>(
+        "/" + names_[i] + "/cmd_stop", 1,
+        [this, i](const std_msgs::Empty::ConstPtr&) { note(i, [](Told& told) { told.stop_motors = true; }); }));
   }
 
   template <typename Request, typename Work>
