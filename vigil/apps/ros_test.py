@@ -114,6 +114,8 @@ class TheLaboratory(unittest.TestCase):
         until(lambda: state()["time_s"] - cls.began_s >= 22.5, 60, "23 s")
         publish("/vigil/land", "std_msgs/String", "data: cf2")
         until(lambda: are("grounded", "cf2"), 5, "cf2 on the ground")
+        landed_s = state()["time_s"]
+        until(lambda: state()["time_s"] - landed_s >= 2, 10, "RViz to draw the last of its trail")
         cls.landed = Picture("landed")
         self.assertTrue(are("active", "cf1", "cf3"), drones())
 
