@@ -144,6 +144,19 @@ class Recordings(unittest.TestCase):
             result = run("replay", out, *wrong)
             self.assertEqual((result.returncode, len(result.stderr.splitlines())), (2, 1), result.stderr)
 
+    def test_a_mission_file_that_was_edited_beside_its_recording_is_told_and_not_used(self):
+        with tempfile.TemporaryDirectory() as folder:
+            flown = pathlib.Path(folder) / "flown"
+            self.assertEqual(run("simulate", MISSIONS / "paper.yaml", "--out", flown, "--set", "simulation.duration_s=2").returncode, 0)
+            self.assertEqual(run("replay", flown, "--verify").stderr, "")
+            mission = flown / "recording" / "mission.yaml"
+            mission.write_text(mission.read_text().replace("name: paper", "name: other"))
+            for command in (("replay", flown, "--verify"), ("report", flown)):
+                result = run(*command)
+                self.assertEqual(result.returncode, 0, result.stderr)
+                self.assertIn("mission.yaml is not the mission that was flown any more", result.stderr)
+            self.assertIn("paper: 100 of 100 ticks", run("replay", flown, "--verify").stdout)
+
     def test_ticks_that_are_taken_away_from_the_end_are_missed(self):
         out = self.simulated("paper.yaml", "--seconds", 10)
         with contextlib.closing(sqlite3.connect(out / "recording" / "recording_0.db3")) as database:

@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "vigil/adapters/recording/bag_recording.hpp"
 #include "vigil/apps/exit_code.hpp"
 #include "vigil/apps/failure.hpp"
 #include "vigil/apps/interrupt.hpp"
@@ -26,7 +27,7 @@ void announce(const ConsoleOptions& options, const runtime::ReplayLoop& recordin
 }
 
 int show(const std::filesystem::path& directory, const ConsoleOptions& options, const std::string& version) {
-  const auto open = [&directory] { return choose_recording(directory).recording; };
+  const auto open = [&directory] { return std::make_unique<recording::BagRecording>(directory); };
   const auto recording = std::make_shared<runtime::ReplayLoop>(choose_recording(directory).mission, open, /*epoch=*/1U);
   std::string url;
   console::ServerOptions served = server_options(options, version);

@@ -29,7 +29,7 @@ struct KeptFlight final : Recorder {
     kept.clearances = tick.clearances;
   }
   void log(const LoggedEvent&) noexcept override {}
-  void targets(double, const TargetsSection&) noexcept override {}
+  void targets(double, const MissionTargets&) noexcept override {}
   void finish() override {}
 };
 

@@ -30,8 +30,6 @@ std::size_t size_of(const MissionTargets& targets) {
   return points;
 }
 
-MissionTargets targets_of(const Mission& mission) { return {mission.targets, mission.no_fly}; }
-
 std::string in_words(std::span<const TargetEdit> edits) {
   if (edits.size() == 1) return in_words(edits.front());
   return fmt::format("{} changes: {}, ...", edits.size(), in_words(edits.front()));

@@ -64,7 +64,7 @@ void QueuedRecorder::log(const LoggedEvent& event) noexcept {
   if (!notes_.push(std::move(note))) lost_.fetch_add(1, std::memory_order_relaxed);
 }
 
-void QueuedRecorder::targets(double time_s, const TargetsSection& targets) noexcept {
+void QueuedRecorder::targets(double time_s, const MissionTargets& targets) noexcept {
   std::vector<Note> note;
   note.emplace_back(NewTargets{time_s, targets});
   if (!notes_.push(std::move(note))) lost_.fetch_add(1, std::memory_order_relaxed);

@@ -35,7 +35,7 @@ class QueuedRecorder final : public Recorder {
   void begin(const Mission& /*mission*/, const FlightStart& /*start*/) override {}
   void record(const TickRecord& tick) noexcept override;
   void log(const LoggedEvent& event) noexcept override;
-  void targets(double time_s, const TargetsSection& targets) noexcept override;
+  void targets(double time_s, const MissionTargets& targets) noexcept override;
   /// Writes what waits and ends the recording; whatever inner->finish() throws, or an exception that says how many
   /// ticks were lost.
   void finish() override;
@@ -57,7 +57,7 @@ class QueuedRecorder final : public Recorder {
   };
   struct NewTargets {
     double time_s = 0.0;
-    TargetsSection targets;
+    MissionTargets targets;
   };
   using Note = std::variant<LoggedEvent, NewTargets>;
 

@@ -39,7 +39,7 @@ class GatedRecorder final : public Recorder {
     const std::lock_guard lock(kept_.mutex);
     kept_.events.push_back(event.what);
   }
-  void targets(double, const TargetsSection&) noexcept override { log({0.0, "", "targets", "", ""}); }
+  void targets(double, const MissionTargets&) noexcept override { log({0.0, "", "targets", "", ""}); }
   void finish() override { ++kept_.finished; }
 
  private:
@@ -72,7 +72,7 @@ class FullRecorder final : public Recorder {
   void begin(const Mission&, const FlightStart&) override {}
   void record(const TickRecord&) noexcept override { is_full_ = ++seen_ > room_; }
   void log(const LoggedEvent&) noexcept override {}
-  void targets(double, const TargetsSection&) noexcept override {}
+  void targets(double, const MissionTargets&) noexcept override {}
   [[nodiscard]] std::string trouble() const override { return is_full_ ? "the disk is full" : ""; }
   void finish() override {
     if (is_full_) throw std::runtime_error("the disk is full");

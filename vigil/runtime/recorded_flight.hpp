@@ -44,11 +44,13 @@ struct DroneColumns {
   std::vector<double> true_height_m;  ///< NaN in a live flight
 };
 
-/// The targets that held from time_s on, until the next entry.
+/// What held from time_s on, until the next entry. World frame.
 struct RecordedTargets {
   double time_s = 0.0;
-  std::vector<ClusterEntry> clusters;  ///< names, weights and points, world frame
-  std::vector<AreaEntry> areas;        ///< names, weights and outlines, world frame; soft edges stand in the mission
+  std::vector<ClusterEntry> clusters{};
+  std::vector<AreaEntry> areas{};
+  std::vector<NoFlyEntry> no_fly{};
+  double uniform_floor = 0.0;
 };
 
 /// A flight as its recording tells it. World frame.

@@ -6,7 +6,7 @@
 
 #include "vigil/runtime/fleet.hpp"
 #include "vigil/runtime/flight_start.hpp"
-#include "vigil/runtime/mission.hpp"
+#include "vigil/runtime/mission_targets.hpp"
 #include "vigil/swarm/command.hpp"
 #include "vigil/swarm/snapshot.hpp"
 
@@ -47,8 +47,8 @@ class Recorder {
   virtual void begin(const Mission& mission, const FlightStart& start) = 0;
   virtual void record(const TickRecord& tick) noexcept = 0;
   virtual void log(const LoggedEvent& event) noexcept = 0;
-  /// The targets that hold from time_s on.
-  virtual void targets(double time_s, const TargetsSection& targets) noexcept = 0;
+  /// The targets and no-fly polygons that hold from time_s on.
+  virtual void targets(double time_s, const MissionTargets& targets) noexcept = 0;
   /// What was given so far outlives this program from here on, however it ends.
   virtual void flush() noexcept {}
   /// Why nothing more, or not everything, is kept, for people; empty where all is well.

@@ -6,6 +6,7 @@
 
 #include "vigil/runtime/mission_setup.hpp"
 #include "vigil/runtime/recollection.hpp"
+#include "vigil/runtime/recorded_targets.hpp"
 
 namespace vigil::runtime {
 namespace {
@@ -22,13 +23,6 @@ void for_each_tick(FlightRecording& recording, const Take& take) {
     recollection.complete(tick);
     take(tick);
   }
-}
-
-TargetsSection section_of(const RecordedTargets& targets) {
-  TargetsSection section;
-  section.clusters = targets.clusters;
-  section.areas = targets.areas;
-  return section;
 }
 
 void expect_drones(const FlightRecording& recording, const Mission& mission) {
@@ -96,7 +90,8 @@ class Columns {
 void play(FlightRecording& recording, const Mission& mission, Recorder& recorder) {
   expect_drones(recording, mission);
   recorder.begin(mission, recording.head().start);
-  for (const RecordedTargets& targets : recording.targets()) recorder.targets(targets.time_s, section_of(targets));
+  for (const RecordedTargets& targets : recording.targets())
+    recorder.targets(targets.time_s, with(targets_of(mission), targets));
   for (const LoggedEvent& event : recording.events()) recorder.log(event);
   for_each_tick(recording, [&](const RecordedTick& tick) {
     recorder.record({tick.snapshot, tick.observations, tick.commands, tick.truth, tick.clearances});

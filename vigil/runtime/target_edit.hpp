@@ -8,17 +8,10 @@
 #include <variant>
 #include <vector>
 
-#include "vigil/runtime/mission.hpp"
+#include "vigil/runtime/mission_targets.hpp"
 
 /// How operators change where to look, piece by piece. Points are in the world frame, as in mission files.
 namespace vigil::runtime {
-
-/// What a mission says of where to look and where not to fly.
-struct MissionTargets {
-  TargetsSection targets;
-  std::vector<NoFlyEntry> no_fly;
-  friend bool operator==(const MissionTargets&, const MissionTargets&) = default;
-};
 
 enum class TargetKind : std::uint8_t { kCluster, kArea, kNoFly };
 

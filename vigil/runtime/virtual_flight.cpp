@@ -51,7 +51,7 @@ void VirtualFlight::retarget(double time_s, std::vector<swarm::Command>& command
   }
   for (field::RevisitLog& area : areas_)
     if (std::find(watched.begin(), watched.end(), area.name()) == watched.end()) area.watch({}, time_s);
-  if (recorder_ != nullptr) recorder_->targets(time_s, mission_.targets);
+  if (recorder_ != nullptr) recorder_->targets(time_s, targets_of(mission_));
 }
 
 void VirtualFlight::watch_areas(double time_s) {

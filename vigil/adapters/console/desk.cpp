@@ -83,7 +83,8 @@ void Desk::retarget(std::uint64_t ticket) {
   unsent_ = command;
   submit_target();
   ground_->retarget(mission, recent_targets_.back()->phi_k, frame_->snapshot.time_s);
-  if (flight_->recorder() != nullptr) flight_->recorder()->targets(frame_->snapshot.time_s, mission.targets);
+  if (flight_->recorder() != nullptr)
+    flight_->recorder()->targets(frame_->snapshot.time_s, runtime::targets_of(mission));
 }
 
 void Desk::submit_target() {
@@ -152,7 +153,7 @@ void Desk::load_mission(std::uint64_t ticket, const std::string& yaml) {
 void Desk::play(std::uint32_t epoch, std::size_t event_index) {
   if (epoch != epoch_) return;
   const runtime::EventEntry& event = flight_->mission().simulation.events.at(event_index);
-  const runtime::MissionTargets targets{desk_->mission().targets, desk_->mission().no_fly};
+  const runtime::MissionTargets targets = runtime::targets_of(desk_->mission());
   const runtime::TargetEdit edit = runtime::edit_of(targets, event);
   if (const auto refusal = desk_->edit(std::span(&edit, 1), desk_->revision(), "mission"))
     tell_(DeskTrouble{"an event of the mission file no longer fits the targets: " + refusal->reason});

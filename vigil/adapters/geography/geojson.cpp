@@ -65,13 +65,13 @@ std::string geojson(const MappedFlight& flight) {
   const GeographicFrame frame(*mission.field.datum);
   Json features = Json::array();
   features.push_back(polygon(frame, field_outline(mission), {{"kind", "field"}, {"name", mission.name}}));
-  for (const runtime::ClusterEntry& cluster : flight.targets.clusters)
+  for (const runtime::ClusterEntry& cluster : flight.targets.targets.clusters)
     features.push_back(feature("MultiPoint", positions(frame, cluster.points_m),
                                {{"kind", "cluster"}, {"name", cluster.name}, {"weight", cluster.weight}}));
-  for (const runtime::AreaEntry& area : flight.targets.areas)
+  for (const runtime::AreaEntry& area : flight.targets.targets.areas)
     features.push_back(
         polygon(frame, area.outline_m, {{"kind", "area"}, {"name", area.name}, {"weight", area.weight}}));
-  for (const runtime::NoFlyEntry& no_fly : mission.no_fly)
+  for (const runtime::NoFlyEntry& no_fly : flight.targets.no_fly)
     features.push_back(polygon(frame, no_fly.outline_m, {{"kind", "no_fly"}, {"name", no_fly.name}}));
   for (const Track& one : flight.tracks)
     if (!one.pieces.empty()) features.push_back(track(frame, one, flight.began_ns));

@@ -5,14 +5,14 @@
 #include <string>
 
 #include "vigil/adapters/geography/track_recorder.hpp"
-#include "vigil/runtime/mission.hpp"
+#include "vigil/runtime/mission_targets.hpp"
 
 namespace vigil::geography {
 
 /// A flight as maps draw it.
 struct MappedFlight {
   const runtime::Mission& mission;         ///< with a datum
-  const runtime::TargetsSection& targets;  ///< those of its end
+  const runtime::MissionTargets& targets;  ///< those of its end
   std::span<const Track> tracks;
   std::int64_t began_ns = 0;  ///< time of day at time 0 of the tracks, since 1970; 0: a simulated flight
 };

@@ -14,7 +14,7 @@ using Json = nlohmann::json;
 class GeoJson : public testing::Test {
  protected:
   [[nodiscard]] Json written(std::int64_t began_ns = 0) const {
-    return Json::parse(geojson({mission_, mission_.targets, tracks_, began_ns}));
+    return Json::parse(geojson({mission_, targets_, tracks_, began_ns}));
   }
   [[nodiscard]] Json feature(const std::string& kind, std::int64_t began_ns = 0) const {
     const Json collection = written(began_ns);
@@ -29,6 +29,7 @@ class GeoJson : public testing::Test {
   }
 
   runtime::Mission mission_ = mapped_mission();
+  runtime::MissionTargets targets_ = runtime::targets_of(mission_);
   std::vector<Track> tracks_ = two_tracks();
 };
 
@@ -72,7 +73,7 @@ TEST_F(GeoJson, Only_a_live_flight_has_a_time_of_day) {
 }
 
 TEST_F(GeoJson, The_same_flight_gives_the_same_bytes) {
-  const MappedFlight flight{mission_, mission_.targets, tracks_, 0};
+  const MappedFlight flight{mission_, targets_, tracks_, 0};
   EXPECT_EQ(geojson(flight), geojson(flight));
 }
 

@@ -91,10 +91,10 @@ pugi::xml_node add_folder(pugi::xml_node document, const char* name) {
 
 void add_watched(pugi::xml_node folder, const GeographicFrame& frame, const MappedFlight& flight) {
   add_polygon(folder, "field", kFieldLook, frame, field_outline(flight.mission));
-  for (const runtime::ClusterEntry& cluster : flight.targets.clusters) add_cluster(folder, frame, cluster);
-  for (const runtime::AreaEntry& area : flight.targets.areas)
+  for (const runtime::ClusterEntry& cluster : flight.targets.targets.clusters) add_cluster(folder, frame, cluster);
+  for (const runtime::AreaEntry& area : flight.targets.targets.areas)
     add_polygon(folder, area.name, kAreaLook, frame, area.outline_m);
-  for (const runtime::NoFlyEntry& no_fly : flight.mission.no_fly)
+  for (const runtime::NoFlyEntry& no_fly : flight.targets.no_fly)
     add_polygon(folder, no_fly.name, kNoFlyLook, frame, no_fly.outline_m);
 }
 

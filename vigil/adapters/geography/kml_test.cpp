@@ -12,11 +12,12 @@ namespace {
 
 class Kml : public testing::Test {
  protected:
-  Kml() { EXPECT_TRUE(file_.load_string(kml({mission_, mission_.targets, tracks_, 0}).c_str())); }
+  Kml() { EXPECT_TRUE(file_.load_string(kml({mission_, targets_, tracks_, 0}).c_str())); }
 
   [[nodiscard]] std::string text(const char* path) const { return file_.select_node(path).node().text().get(); }
 
   runtime::Mission mission_ = mapped_mission();
+  runtime::MissionTargets targets_ = runtime::targets_of(mission_);
   std::vector<Track> tracks_ = two_tracks();
   pugi::xml_document file_;
 };

@@ -12,7 +12,7 @@ void TrackRecorder::begin(const runtime::Mission& mission, const runtime::Flight
   freshness_s_ = mission.health.tracking_timeout_s;
   for (const runtime::DroneEntry& drone : mission.drones) tracks_.push_back({drone.id, {}});
   is_known_.assign(tracks_.size(), false);
-  last_targets_ = mission.targets;
+  last_targets_ = runtime::targets_of(mission);
 }
 
 void TrackRecorder::record(const runtime::TickRecord& tick) noexcept {
@@ -42,7 +42,7 @@ void TrackRecorder::add(const swarm::Snapshot& snapshot) {
 
 void TrackRecorder::log(const runtime::LoggedEvent& /*event*/) noexcept {}
 
-void TrackRecorder::targets(double /*time_s*/, const runtime::TargetsSection& targets) noexcept {
+void TrackRecorder::targets(double /*time_s*/, const runtime::MissionTargets& targets) noexcept {
   try {
     last_targets_ = targets;
   } catch (const std::bad_alloc&) {

@@ -30,12 +30,12 @@ class TrackRecorder final : public runtime::Recorder {
   void begin(const runtime::Mission& mission, const runtime::FlightStart& start) override;
   void record(const runtime::TickRecord& tick) noexcept override;
   void log(const runtime::LoggedEvent& event) noexcept override;
-  void targets(double time_s, const runtime::TargetsSection& targets) noexcept override;
+  void targets(double time_s, const runtime::MissionTargets& targets) noexcept override;
   void finish() override;
 
   /// Of all drones, in the mission's order; after finish().
   [[nodiscard]] const std::vector<Track>& tracks() const { return tracks_; }
-  [[nodiscard]] const runtime::TargetsSection& last_targets() const { return last_targets_; }
+  [[nodiscard]] const runtime::MissionTargets& last_targets() const { return last_targets_; }
 
  private:
   void add(const swarm::Snapshot& snapshot);
@@ -48,7 +48,7 @@ class TrackRecorder final : public runtime::Recorder {
   double next_s_ = 0.0;
   std::vector<Track> tracks_;
   std::vector<bool> is_known_;  ///< at the step before
-  runtime::TargetsSection last_targets_;
+  runtime::MissionTargets last_targets_;
   bool is_short_of_memory_ = false;
 };
 

@@ -67,11 +67,12 @@ TEST(TrackRecorder, The_targets_are_those_of_the_end) {
   TrackRecorder recorder(1.0);
   const runtime::Mission mission = mission_of(1);
   recorder.begin(mission, {});
-  runtime::TargetsSection later = mission.targets;
-  later.clusters[0].name = "second";
+  runtime::MissionTargets later = runtime::targets_of(mission);
+  later.targets.clusters[0].name = "second";
+  later.no_fly.push_back({"mast", later.targets.clusters[0].points_m});
   recorder.targets(5.0, later);
   recorder.finish();
-  EXPECT_EQ(recorder.last_targets().clusters[0].name, "second");
+  EXPECT_EQ(recorder.last_targets(), later);
 }
 
 }  // namespace

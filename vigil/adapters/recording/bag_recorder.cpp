@@ -28,7 +28,28 @@ BagRecorder::BagRecorder(const std::filesystem::path& directory, std::string mis
 }
 
 void BagRecorder::begin(const runtime::Mission& mission, const runtime::FlightStart& start) {
+  const bool is_new = !std::filesystem::exists(folder_);
   create_folder(folder_);
+  try {
+    begin_in_folder(mission, start);
+  } catch (...) {
+    if (is_new) leave_nothing();
+    throw;
+  }
+}
+
+/// A flight whose recording could not begin can be asked for again, in the same place.
+void BagRecorder::leave_nothing() {
+  bag_.reset();
+  std::error_code error;
+  for (const char* name : {"mission.yaml", "metadata.yaml", "metadata.yaml.unfinished", "recording_0.db3",
+                           "recording_0.db3-wal", "recording_0.db3-shm", "recording_0.db3-journal"})
+    std::filesystem::remove(folder_ / name, error);
+  std::filesystem::remove(folder_, error);
+  std::filesystem::remove(folder_.parent_path(), error);
+}
+
+void BagRecorder::begin_in_folder(const runtime::Mission& mission, const runtime::FlightStart& start) {
   write_text(folder_ / kMissionFile, head_.mission_text);
   head_.parameters = runtime::swarm_parameters(mission, start.first_intent);
   head_.start = start;
@@ -132,7 +153,7 @@ void BagRecorder::write_event_of(const runtime::LoggedEvent& event) {
   write(kEventTopic, last_time_s_);
 }
 
-void BagRecorder::targets(double time_s, const runtime::TargetsSection& targets) noexcept {
+void BagRecorder::targets(double time_s, const runtime::MissionTargets& targets) noexcept {
   guarded([&] {
     write_targets(writer_, time_s, targets);
     write(kTargetsTopic, last_time_s_);

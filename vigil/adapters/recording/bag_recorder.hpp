@@ -39,7 +39,7 @@ class BagRecorder final : public runtime::Recorder {
   void begin(const runtime::Mission& mission, const runtime::FlightStart& start) override;
   void record(const runtime::TickRecord& tick) noexcept override;
   void log(const runtime::LoggedEvent& event) noexcept override;
-  void targets(double time_s, const runtime::TargetsSection& targets) noexcept override;
+  void targets(double time_s, const runtime::MissionTargets& targets) noexcept override;
   void flush() noexcept override;
   [[nodiscard]] std::string trouble() const override { return failure_; }
   /// RecordingError where not all was kept.
@@ -58,6 +58,8 @@ class BagRecorder final : public runtime::Recorder {
                      std::span<const runtime::TruthSample> truth);
   void write(std::size_t topic, double time_s);
   void write_event_of(const runtime::LoggedEvent& event);
+  void begin_in_folder(const runtime::Mission& mission, const runtime::FlightStart& start);
+  void leave_nothing();
   void begin_file();
   void write_mission();
   void set_time_of_day();

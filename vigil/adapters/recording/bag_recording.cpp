@@ -5,6 +5,8 @@
 
 #include <fmt/format.h>
 
+#include "vigil/adapters/recording/bag_folder.hpp"
+#include "vigil/adapters/recording/message_definitions.hpp"
 #include "vigil/adapters/recording/own_messages.hpp"
 #include "vigil/adapters/recording/own_topics.hpp"
 #include "vigil/adapters/recording/recording_error.hpp"
@@ -15,40 +17,49 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// The bag's files in the order in which they were written, from the first that is still there.
-std::vector<fs::path> files_in(const fs::path& folder) {
-  std::error_code error;
-  std::vector<std::pair<std::size_t, fs::path>> found;
-  for (const fs::directory_entry& entry : fs::directory_iterator(folder, error)) {
-    const std::string name = entry.path().filename().string();
-    std::size_t number = 0;
-    if (entry.path().extension() == ".db3" && std::sscanf(name.c_str(), "recording_%zu.db3", &number) == 1)
-      found.emplace_back(number, entry.path());
+/// Why messages may be unreadable: the definition that the bag has of one is not the one that is read here. Empty where
+/// all are the same, or the bag has none.
+std::string other_version_in_words(const Database& database, const std::vector<Topic>& own) {
+  Statement has_definitions(database, "SELECT 1 FROM sqlite_master WHERE name = 'message_definitions'");
+  if (!has_definitions.step()) return {};
+  Statement select(database, "SELECT encoded_message_definition FROM message_definitions WHERE topic_type = ?");
+  for (const Topic& topic : own) {
+    select.bind(1, std::string_view(topic.type));
+    const bool differs = select.step() && select.text(0) != whole_definition(topic.type);
+    select.reset();
+    if (differs) return fmt::format("; another version of this program wrote it: its {} has other fields", topic.type);
   }
-  std::ranges::sort(found);
-  std::vector<fs::path> files;
-  for (auto& [number, path] : found) files.push_back(std::move(path));
-  if (files.empty())
-    throw RecordingError(
-        fmt::format("{}: no recording here; name a directory that `vigil simulate --out` or `vigil serve --record` "
-                    "wrote",
-                    folder.string()));
-  return files;
+  return {};
+}
+
+/// "recording_1.db3 and recording_2.db3 are missing"
+std::string missing_in_words(const std::vector<std::string>& names) {
+  if (names.size() == 1) return names.front() + " is missing";
+  if (names.size() == 2) return fmt::format("{} and {} are missing", names.front(), names.back());
+  return fmt::format("{} files from {} to {} are missing", names.size(), names.front(), names.back());
 }
 
 }  // namespace
 
 BagRecording::BagRecording(const fs::path& directory) {
-  for (const fs::path& path : files_in(directory / kFolder)) open_file(path);
+  const BagFolder folder = look_into(directory / kFolder);
+  for (const fs::path& path : folder.files) open_file(path);
   for (std::uint32_t n = 0; n < files_.size(); ++n) look_through(n);
   if (!has_head_)
     throw RecordingError(
         fmt::format("{}: the mission's message is missing; it ended before it began", files_.front().path));
-  if (!is_finished_)
-    incomplete_reason_ = "it was not finished: the program was ended, or is still writing";
-  else if (missing_ticks() > 0)
-    incomplete_reason_ =
-        fmt::format("{} of the {} ticks that it kept are not there any more", missing_ticks(), kept_ticks_);
+  say_why_incomplete(folder.missing);
+}
+
+void BagRecording::say_why_incomplete(const std::vector<std::string>& missing_files) {
+  std::vector<std::string> reasons;
+  if (!missing_files.empty()) reasons.push_back(missing_in_words(missing_files));
+  if (!is_finished_ && missing_files.empty())
+    reasons.emplace_back("it was not finished: the program was ended, or is still writing");
+  if (missing_ticks() > 0)
+    reasons.push_back(
+        fmt::format("{} of the {} ticks that it kept are not there any more", missing_ticks(), kept_ticks_));
+  incomplete_reason_ = fmt::format("{}", fmt::join(reasons, "; "));
 }
 
 void BagRecording::open_file(const fs::path& path) {
@@ -71,6 +82,7 @@ void BagRecording::open_file(const fs::path& path) {
       fmt::format("SELECT topic_id, data FROM messages WHERE id > ? AND id <= ? AND topic_id IN ({}, {}) "
                   "ORDER BY id",
                   file.topics.tick, file.topics.commands));
+  file.other_version = other_version_in_words(*file.database, own);
   files_.push_back(std::move(file));
 }
 
@@ -84,6 +96,7 @@ void BagRecording::look_through(std::uint32_t number) {
                             topics.mission, topics.targets, topics.event, topics.tick, topics.mission, topics.targets,
                             topics.event));
   std::int64_t after = 0;
+  const std::int64_t before_ns = last_tick_ns_;
   while (all.step()) {
     const std::int64_t id = all.number(0);
     if (all.number(1) != topics.tick) {
@@ -91,22 +104,34 @@ void BagRecording::look_through(std::uint32_t number) {
       continue;
     }
     if (ticks_.empty()) head_.began_ns = all.number(3);
+    last_tick_ns_ = all.number(3);
+    if (after == 0 && last_tick_ns_ <= before_ns) refuse_as_foreign(file);
     ticks_.push_back({number, after, id});
     after = id;
   }
 }
 
 void BagRecording::take_note(const File& file, std::int64_t topic, std::span<const char> message) {
+  if (topic == file.topics.mission && has_head_ && !std::ranges::equal(message, first_head_)) refuse_as_foreign(file);
   try {
-    if (topic == file.topics.mission && !has_head_) {
-      head_ = read_head(message);
-      has_head_ = true;
-    }
+    if (topic == file.topics.mission && !has_head_) take_head(message);
     if (topic == file.topics.targets) targets_.push_back(read_targets(message));
     if (topic == file.topics.event) add_event(read_event(message));
   } catch (const RecordingError& problem) {
-    throw RecordingError(fmt::format("{}: {}", file.path, problem.what()));
+    throw RecordingError(fmt::format("{}: {}{}", file.path, problem.what(), file.other_version));
   }
+}
+
+/// Every file begins with the same one.
+void BagRecording::take_head(std::span<const char> message) {
+  head_ = read_head(message);
+  first_head_.assign(message.begin(), message.end());
+  has_head_ = true;
+}
+
+void BagRecording::refuse_as_foreign(const File& file) const {
+  throw RecordingError(fmt::format("{}: is of another flight than {}; take it away", file.path,
+                                   fs::path(files_.front().path).filename().string()));
 }
 
 /// Events are told a little after their time, and not always in their order.
@@ -131,8 +156,8 @@ void BagRecording::read(std::uint64_t number, runtime::RecordedTick& into) {
     read_messages(file, place, into);
   } catch (const RecordingError& problem) {
     file.select->reset();
-    throw RecordingError(
-        fmt::format("{}: tick {} of the recording (message {}): {}", file.path, number, place.id, problem.what()));
+    throw RecordingError(fmt::format("{}: tick {} of the recording (message {}): {}{}", file.path, number, place.id,
+                                     problem.what(), file.other_version));
   }
 }
 

@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <limits>
 #include <memory>
 #include <string>
 #include <vector>
@@ -39,6 +40,7 @@ class BagRecording final : public runtime::FlightRecording {
     std::unique_ptr<Database> database;
     TopicIds topics{};
     std::unique_ptr<Statement> select{};
+    std::string other_version{};  ///< why it may be unreadable; empty where this program's version wrote it
   };
   /// Where a tick is: its message, and the one of the tick before it in the same file.
   struct Place {
@@ -50,13 +52,18 @@ class BagRecording final : public runtime::FlightRecording {
   void open_file(const std::filesystem::path& path);
   void look_through(std::uint32_t number);
   void take_note(const File& file, std::int64_t topic, std::span<const char> message);
+  void take_head(std::span<const char> message);
+  [[noreturn]] void refuse_as_foreign(const File& file) const;
+  void say_why_incomplete(const std::vector<std::string>& missing_files);
   void add_event(runtime::LoggedEvent event);
   void read_messages(File& file, const Place& place, runtime::RecordedTick& into);
 
   runtime::RecordingHead head_;
+  std::vector<char> first_head_;  ///< its message
   bool has_head_ = false;
   bool is_finished_ = false;
   std::uint64_t kept_ticks_ = 0;  ///< as it says at its end
+  std::int64_t last_tick_ns_ = std::numeric_limits<std::int64_t>::min();
   std::vector<File> files_;
   std::vector<Place> ticks_;
   std::vector<runtime::RecordedTargets> targets_;

@@ -3,11 +3,13 @@
 #include <bit>
 #include <limits>
 
+#include "vigil/adapters/recording/bag_folder.hpp"
 #include "vigil/adapters/recording/bag_recorder.hpp"
 #include "vigil/adapters/recording/flight_for_tests.hpp"
 #include "vigil/adapters/recording/recording_error.hpp"
 #include "vigil/adapters/recording/small_disk_for_tests.hpp"
 #include "vigil/adapters/recording/sqlite.hpp"
+#include "vigil/runtime/recorded_targets.hpp"
 #include "vigil/runtime/recording_playback.hpp"
 
 namespace vigil::recording {
@@ -215,6 +217,22 @@ TEST(BagRecording, Keeps_the_disk_from_filling_up_and_says_so) {
             std::string::npos);
 }
 
+TEST(BagRecording, Where_it_cannot_begin_it_leaves_nothing_behind) {
+  const TemporaryFolder folder;
+  const std::filesystem::path results = folder.path() / "results";
+  BagRecorderOptions options;
+  options.bag.keep_free_bytes = std::numeric_limits<std::uint64_t>::max();
+  BagRecorder guarded(results, kText, options);
+  EXPECT_THROW(guarded.begin(mission_of(1), {}), RecordingError);
+  EXPECT_FALSE(std::filesystem::exists(results));
+  {
+    const SmallDisk disk(1 << 12);
+    BagRecorder full(results, kText);
+    EXPECT_THROW(full.begin(mission_of(1), {}), RecordingError);
+  }
+  EXPECT_FALSE(std::filesystem::exists(results));
+}
+
 TEST(BagRecording, A_full_disk_does_not_end_the_flight_and_what_was_kept_before_can_be_read) {
   const TemporaryFolder folder;
   BagRecorder recorder(folder.path(), kText);
@@ -266,6 +284,92 @@ TEST(BagRecording, One_flipped_byte_of_an_observation_is_found_with_its_drone) {
     EXPECT_EQ(tick.damage ? tick.damage->drone : std::nullopt,
               number == 2 ? std::optional<std::size_t>(1) : std::nullopt);
   }
+}
+
+TEST(BagRecording, Gives_back_deadlines_soft_edges_and_no_fly_polygons) {
+  const TemporaryFolder folder;
+  const std::vector<Vec2> outline{{0.0, 0.0}, {1.0, 0.0}, {0.0, 1.0 / 3.0}};
+  runtime::MissionTargets given;
+  given.targets.clusters.push_back({"camp", {{0.1, 0.2}}, 2.0, 45.0});
+  given.targets.areas.push_back({"pond", outline, 3.0, 0.25, {}});
+  given.targets.uniform_floor = 0.125;
+  given.no_fly.push_back({"mast", outline});
+  {
+    BagRecorder recorder(folder.path(), kText);
+    recorder.begin(mission_of(1), {});
+    recorder.targets(0.5, given);
+    recorder.finish();
+  }
+  const BagRecording recording(folder.path());
+  ASSERT_EQ(recording.targets().size(), 1U);
+  EXPECT_EQ(runtime::with({}, recording.targets().front()), given);
+}
+
+BagRecorderOptions small_files() {
+  BagRecorderOptions options;
+  options.bag.split_bytes = 20'000;
+  return options;
+}
+
+std::string incomplete_without(const char* name) {
+  const TemporaryFolder folder;
+  fly(folder.path(), 200, 2, small_files());
+  EXPECT_TRUE(std::filesystem::remove(folder.path() / "recording" / name));
+  return BagRecording(folder.path()).incomplete_reason();
+}
+
+TEST(BagRecording, Says_which_of_its_files_are_missing) {
+  EXPECT_NE(incomplete_without("recording_0.db3").find("recording_0.db3 is missing"), std::string::npos);
+  EXPECT_NE(incomplete_without("recording_2.db3").find("recording_2.db3 is missing"), std::string::npos);
+  const TemporaryFolder folder;
+  fly(folder.path(), 200, 2, small_files());
+  const BagFolder bag = look_into(folder.path() / "recording");
+  const std::string last = bag.files.back().filename().string();
+  EXPECT_TRUE(bag.missing.empty());
+  EXPECT_EQ(incomplete_without(last.c_str()), last + " is missing");
+  overwrite(folder.path() / "recording/metadata.yaml", "{ no: yaml");
+  EXPECT_EQ(BagRecording(folder.path()).incomplete_reason(), "");
+}
+
+std::string refused_with(const std::filesystem::path& folder, const char* name, const std::filesystem::path& foreign) {
+  std::filesystem::copy_file(foreign, folder / "recording" / name, std::filesystem::copy_options::overwrite_existing);
+  return message_of([&] { const BagRecording mixed(folder); });
+}
+
+TEST(BagRecording, A_file_of_another_flight_is_refused) {
+  const TemporaryFolder folder;
+  const TemporaryFolder other;
+  fly(folder.path(), 200, 2, small_files());
+  fly(other.path(), 10, 3);
+  EXPECT_NE(refused_with(folder.path(), "recording_1.db3", other.path() / "recording/recording_0.db3")
+                .find("recording_1.db3: is of another flight than recording_0.db3"),
+            std::string::npos);
+  EXPECT_NE(refused_with(folder.path(), "recording_1.db3", folder.path() / "recording/recording_0.db3")
+                .find("recording_1.db3: is of another flight than recording_0.db3"),
+            std::string::npos)
+      << "a file twice";
+}
+
+/// Changes the last character of each `text` in the recording's file.
+void misspell(const std::filesystem::path& directory, const std::string& text) {
+  const std::filesystem::path path = directory / "recording/recording_0.db3";
+  std::string file = contents(path);
+  std::size_t at = file.find(text);
+  ASSERT_NE(at, std::string::npos);
+  for (; at != std::string::npos; at = file.find(text)) file[at + text.size() - 1] = '#';
+  overwrite(path, file);
+}
+
+TEST(BagRecording, Says_where_another_version_wrote_what_cannot_be_read) {
+  const TemporaryFolder folder;
+  fly(folder.path(), 5, 2);
+  misspell(folder.path(), "# Where to look and");
+  EXPECT_EQ(message_of([&] { const BagRecording readable(folder.path()); }), "");
+  misspell(folder.path(), "pond");
+  EXPECT_NE(message_of([&] {
+              const BagRecording other(folder.path());
+            }).find("another version of this program wrote it: its vigil_msgs/msg/Targets has other fields"),
+            std::string::npos);
 }
 
 TEST(BagRecording, Files_of_others_are_refused_with_their_name) {

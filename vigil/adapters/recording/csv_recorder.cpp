@@ -175,30 +175,33 @@ void CsvRecorder::write_event(const runtime::LoggedEvent& event) {
   events_.flush();
 }
 
-void CsvRecorder::targets(double time_s, const runtime::TargetsSection& targets) noexcept {
+void CsvRecorder::targets(double time_s, const runtime::MissionTargets& targets) noexcept {
   guarded([&] { write_targets(time_s, targets); });
 }
 
-void CsvRecorder::write_targets(double time_s, const runtime::TargetsSection& targets) {
-  const auto write_points = [&](std::string_view kind, const std::string& name, double weight, const auto& points) {
+void CsvRecorder::write_targets(double time_s, const runtime::MissionTargets& targets) {
+  const auto write_points = [&](std::string_view kind, const std::string& name, std::optional<double> weight,
+                                const auto& points) {
     for (const Vec2& point : points) {
       targets_.cell(time_s);
       targets_.cell(kind);
       targets_.cell(std::string_view(name));
-      targets_.cell(weight);
+      weight ? targets_.cell(*weight) : targets_.empty_cell();
       cells(targets_, point);
       targets_.end_row();
     }
   };
-  for (const auto& cluster : targets.clusters) write_points("cluster", cluster.name, cluster.weight, cluster.points_m);
-  for (const auto& area : targets.areas) write_points("area", area.name, area.weight, area.outline_m);
+  const auto& [wanted, no_fly] = targets;
+  for (const auto& cluster : wanted.clusters) write_points("cluster", cluster.name, cluster.weight, cluster.points_m);
+  for (const auto& area : wanted.areas) write_points("area", area.name, area.weight, area.outline_m);
   // A list without any target is a list too.
-  if (targets.clusters.empty() && targets.areas.empty()) {
+  if (wanted.clusters.empty() && wanted.areas.empty()) {
     targets_.cell(time_s);
     targets_.cell(std::string_view("none"));
     for (int i = 0; i < 4; ++i) targets_.empty_cell();
     targets_.end_row();
   }
+  for (const auto& polygon : no_fly) write_points("no_fly", polygon.name, {}, polygon.outline_m);
   targets_.flush();
 }
 

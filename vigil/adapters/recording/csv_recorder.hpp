@@ -24,7 +24,7 @@ class CsvRecorder final : public runtime::Recorder {
   void begin(const runtime::Mission& mission, const runtime::FlightStart& start) override;
   void record(const runtime::TickRecord& tick) noexcept override;
   void log(const runtime::LoggedEvent& event) noexcept override;
-  void targets(double time_s, const runtime::TargetsSection& targets) noexcept override;
+  void targets(double time_s, const runtime::MissionTargets& targets) noexcept override;
   /// RecordingError where not all was kept.
   void finish() override;
 
@@ -42,7 +42,7 @@ class CsvRecorder final : public runtime::Recorder {
                    const runtime::TruthSample* truth);
   void write_holding(const safety::FilterReport& report);
   void write_truth(const runtime::TruthSample* truth);
-  void write_targets(double time_s, const runtime::TargetsSection& targets);
+  void write_targets(double time_s, const runtime::MissionTargets& targets);
   void write_event(const runtime::LoggedEvent& event);
   void close(CsvFile& file) noexcept;
   template <class Write>

@@ -116,7 +116,7 @@ inline void record(runtime::Recorder& recorder, const swarm::Snapshot& snapshot)
 inline void record_flight(runtime::Recorder& recorder, std::size_t ticks, std::size_t drones) {
   const runtime::Mission mission = mission_of(drones);
   recorder.begin(mission, {});
-  recorder.targets(0.0, mission.targets);
+  recorder.targets(0.0, runtime::targets_of(mission));
   recorder.log({0.0, "mission", "begin", "", "said \"go\",\nand went"});
   for (std::size_t tick = 0; tick < ticks; ++tick) record(recorder, snapshot_at(tick, drones));
   recorder.targets(0.5, {});

@@ -1,4 +1,7 @@
 #include <algorithm>
+#include <cmath>
+#include <limits>
+#include <optional>
 
 #include "vigil/adapters/recording/cdr_reader.hpp"
 #include "vigil/adapters/recording/own_messages.hpp"
@@ -67,47 +70,93 @@ swarm::Command command_in(CdrReader& reader) {
   return command;
 }
 
-/// Names, weights, and points one after the other.
-template <class Entry, class PointsOf>
-void put_entries(CdrWriter& writer, const std::vector<Entry>& entries, const PointsOf& points_of) {
+void put_points(CdrWriter& writer, const std::vector<Vec2>& points) {
+  writer.count(2 * points.size());
+  for (const Vec2& point : points)
+    for (const double value : {point.x(), point.y()}) writer.put(value);
+}
+
+std::vector<Vec2> points_in(CdrReader& reader) {
+  const std::vector<double> numbers = reader.sequence<double>();
+  if (numbers.size() % 2 != 0) throw RecordingError("a point without its y");
+  std::vector<Vec2> points;
+  for (std::size_t i = 0; i < numbers.size(); i += 2) points.emplace_back(numbers[i], numbers[i + 1]);
+  return points;
+}
+
+void put_deadline(CdrWriter& writer, const std::optional<double>& revisit_s) {
+  writer.put(revisit_s.value_or(std::numeric_limits<double>::quiet_NaN()));
+}
+
+std::optional<double> deadline_in(CdrReader& reader) {
+  const double revisit_s = reader.number();
+  return std::isnan(revisit_s) ? std::nullopt : std::optional(revisit_s);
+}
+
+void put_entry(CdrWriter& writer, const runtime::ClusterEntry& cluster) {
+  writer.put(std::string_view(cluster.name));
+  writer.put(cluster.weight);
+  put_deadline(writer, cluster.revisit_s);
+  writer.put(0.0);
+  put_points(writer, cluster.points_m);
+}
+
+void put_entry(CdrWriter& writer, const runtime::AreaEntry& area) {
+  writer.put(std::string_view(area.name));
+  writer.put(area.weight);
+  put_deadline(writer, area.revisit_s);
+  writer.put(area.soft_edge_m);
+  put_points(writer, area.outline_m);
+}
+
+void put_entry(CdrWriter& writer, const runtime::NoFlyEntry& no_fly) {
+  writer.put(std::string_view(no_fly.name));
+  put_points(writer, no_fly.outline_m);
+}
+
+void take_entry(CdrReader& reader, runtime::ClusterEntry& cluster) {
+  cluster.name = reader.text();
+  cluster.weight = reader.number();
+  cluster.revisit_s = deadline_in(reader);
+  (void)reader.number();
+  cluster.points_m = points_in(reader);
+}
+
+void take_entry(CdrReader& reader, runtime::AreaEntry& area) {
+  area.name = reader.text();
+  area.weight = reader.number();
+  area.revisit_s = deadline_in(reader);
+  area.soft_edge_m = reader.number();
+  area.outline_m = points_in(reader);
+}
+
+void take_entry(CdrReader& reader, runtime::NoFlyEntry& no_fly) {
+  no_fly.name = reader.text();
+  no_fly.outline_m = points_in(reader);
+}
+
+template <class Entry>
+void put_entries(CdrWriter& writer, const std::vector<Entry>& entries) {
   writer.count(entries.size());
-  for (const Entry& entry : entries) {
-    writer.put(std::string_view(entry.name));
-    writer.put(entry.weight);
-    writer.count(2 * points_of(entry).size());
-    for (const Vec2& point : points_of(entry))
-      for (const double value : {point.x(), point.y()}) writer.put(value);
-  }
+  for (const Entry& entry : entries) put_entry(writer, entry);
 }
 
-template <class Entry, class PointsOf>
-void take_entries(CdrReader& reader, std::vector<Entry>& entries, const PointsOf& points_of) {
-  constexpr std::size_t kLeastBytes = 17;
+template <class Entry>
+void take_entries(CdrReader& reader, std::vector<Entry>& entries) {
+  constexpr std::size_t kLeastBytes = 9;  // a name's length and its end, how many points
   const std::size_t count = reader.count(kLeastBytes);
-  for (std::size_t n = 0; n < count; ++n) {
-    Entry& entry = entries.emplace_back();
-    entry.name = reader.text();
-    entry.weight = reader.number();
-    const std::vector<double> numbers = reader.sequence<double>();
-    if (numbers.size() % 2 != 0) throw RecordingError("a target point without its y");
-    for (std::size_t i = 0; i < numbers.size(); i += 2) points_of(entry).push_back({numbers[i], numbers[i + 1]});
-  }
+  for (std::size_t n = 0; n < count; ++n) take_entry(reader, entries.emplace_back());
 }
 
-template <class Cluster>
-auto& points_of_cluster(Cluster& cluster) {
-  return cluster.points_m;
-}
-template <class Area>
-auto& points_of_area(Area& area) {
-  return area.outline_m;
+std::size_t bytes_of(const std::string& name, const std::vector<Vec2>& points) {
+  return kEntryBytes + name.size() + sizeof(Vec2) * points.size();
 }
 
-std::size_t bytes_of(const runtime::TargetsSection& targets) {
+std::size_t bytes_of(const runtime::MissionTargets& targets) {
   std::size_t bytes = kNoteBytes;
-  for (const auto& cluster : targets.clusters)
-    bytes += kEntryBytes + cluster.name.size() + sizeof(Vec2) * cluster.points_m.size();
-  for (const auto& area : targets.areas) bytes += kEntryBytes + area.name.size() + sizeof(Vec2) * area.outline_m.size();
+  for (const auto& cluster : targets.targets.clusters) bytes += bytes_of(cluster.name, cluster.points_m);
+  for (const auto& area : targets.targets.areas) bytes += bytes_of(area.name, area.outline_m);
+  for (const auto& no_fly : targets.no_fly) bytes += bytes_of(no_fly.name, no_fly.outline_m);
   return bytes;
 }
 
@@ -137,11 +186,13 @@ CommandsRead read_commands(std::span<const char> message) {
   return read;
 }
 
-void write_targets(CdrWriter& writer, double time_s, const runtime::TargetsSection& targets) {
+void write_targets(CdrWriter& writer, double time_s, const runtime::MissionTargets& targets) {
   writer.start(bytes_of(targets));
   writer.put(time_s);
-  put_entries(writer, targets.clusters, points_of_cluster<const runtime::ClusterEntry>);
-  put_entries(writer, targets.areas, points_of_area<const runtime::AreaEntry>);
+  put_entries(writer, targets.targets.clusters);
+  put_entries(writer, targets.targets.areas);
+  put_entries(writer, targets.no_fly);
+  writer.put(targets.targets.uniform_floor);
   writer.seal();
 }
 
@@ -150,8 +201,10 @@ runtime::RecordedTargets read_targets(std::span<const char> message) {
   CdrReader reader(message);
   runtime::RecordedTargets targets;
   targets.time_s = reader.number();
-  take_entries(reader, targets.clusters, points_of_cluster<runtime::ClusterEntry>);
-  take_entries(reader, targets.areas, points_of_area<runtime::AreaEntry>);
+  take_entries(reader, targets.clusters);
+  take_entries(reader, targets.areas);
+  take_entries(reader, targets.no_fly);
+  targets.uniform_floor = reader.number();
   return targets;
 }
 

@@ -44,7 +44,7 @@ struct CommandsRead {
 [[nodiscard]] CommandsRead read_commands(std::span<const char> message);
 
 /// vigil_msgs/msg/Targets
-void write_targets(CdrWriter& writer, double time_s, const runtime::TargetsSection& targets);
+void write_targets(CdrWriter& writer, double time_s, const runtime::MissionTargets& targets);
 [[nodiscard]] runtime::RecordedTargets read_targets(std::span<const char> message);
 
 /// vigil_msgs/msg/Event

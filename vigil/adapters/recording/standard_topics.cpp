@@ -213,11 +213,12 @@ void StandardTopics::write_health(const swarm::Snapshot& snapshot, std::int64_t 
   bag.write(before_ + kDiagnostics, stamp_ns, writer.message());
 }
 
-void StandardTopics::write_targets(const runtime::TargetsSection& targets, std::int64_t stamp_ns, CdrWriter& writer,
+void StandardTopics::write_targets(const runtime::MissionTargets& targets, std::int64_t stamp_ns, CdrWriter& writer,
                                    BagWriter& bag) {
-  write_drawings(writer, stamp_ns, drawings_of(targets, size_m_));
+  write_drawings(writer, stamp_ns, drawings_of(targets.targets, size_m_));
   bag.write(before_ + kMarkers, stamp_ns, writer.message());
-  mission_.targets = targets;
+  mission_.targets = targets.targets;
+  mission_.no_fly = targets.no_fly;
   const field::Field field = runtime::monitored_field(mission_);
   const auto density = field::rasterise(field, runtime::importance(mission_), runtime::grid_of(field, kGridCells));
   if (!density) return;

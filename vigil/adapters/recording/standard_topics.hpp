@@ -7,7 +7,7 @@
 #include "vigil/adapters/recording/bag_writer.hpp"
 #include "vigil/adapters/recording/cdr_writer.hpp"
 #include "vigil/adapters/recording/standard_messages.hpp"
-#include "vigil/runtime/mission.hpp"
+#include "vigil/runtime/mission_targets.hpp"
 #include "vigil/swarm/snapshot.hpp"
 
 namespace vigil::recording {
@@ -28,7 +28,7 @@ class StandardTopics {
   /// What is due at this tick.
   void write_tick(const swarm::Snapshot& snapshot, std::int64_t stamp_ns, CdrWriter& writer, BagWriter& bag);
   /// The importance map, and the targets as markers.
-  void write_targets(const runtime::TargetsSection& targets, std::int64_t stamp_ns, CdrWriter& writer, BagWriter& bag);
+  void write_targets(const runtime::MissionTargets& targets, std::int64_t stamp_ns, CdrWriter& writer, BagWriter& bag);
 
  private:
   /// Something that is due every so often. The first time at the first tick.

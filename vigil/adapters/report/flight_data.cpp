@@ -46,14 +46,6 @@ std::vector<ActiveChange> changes_of(const RecordedFlight& flight) {
   return changes;
 }
 
-/// None where there is no such cluster or area.
-template <class Entry>
-const Entry* with_name(const std::vector<Entry>& entries, const std::string& name) {
-  const auto found =
-      std::find_if(entries.begin(), entries.end(), [&](const Entry& entry) { return entry.name == name; });
-  return found == entries.end() ? nullptr : &*found;
-}
-
 std::string reason(swarm::Activity activity) {
   switch (activity) {
     case swarm::Activity::kLanding:
@@ -100,27 +92,6 @@ std::string FlightData::describe(const ActiveChange& change) const {
   if (change.lost.size() > 1) return fmt::format("{} drones lost", change.lost.size());
   if (change.returned.size() == 1) return fmt::format("{} back", flight.drones[change.returned.front()]);
   return fmt::format("{} drones back", change.returned.size());
-}
-
-runtime::Mission mission_at(double time_s, const RecordedFlight& flight, runtime::Mission mission) {
-  const auto after = std::upper_bound(flight.targets.begin(), flight.targets.end(), time_s,
-                                      [](double time, const auto& list) { return time < list.time_s; });
-  if (after == flight.targets.begin()) return mission;
-  const runtime::RecordedTargets& list = *std::prev(after);
-  const runtime::TargetsSection described = mission.targets;
-  mission.targets.clusters = list.clusters;
-  mission.targets.areas = list.areas;
-  for (runtime::ClusterEntry& cluster : mission.targets.clusters) {
-    const auto* same = with_name(described.clusters, cluster.name);
-    if (same != nullptr) cluster.revisit_s = same->revisit_s;
-  }
-  for (runtime::AreaEntry& area : mission.targets.areas) {
-    const auto* same = with_name(described.areas, area.name);
-    if (same == nullptr) continue;
-    area.soft_edge_m = same->soft_edge_m;
-    area.revisit_s = same->revisit_s;
-  }
-  return mission;
 }
 
 FlightData prepare(const RecordedFlight& flight, const runtime::Mission& mission) {

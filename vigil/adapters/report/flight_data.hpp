@@ -43,10 +43,6 @@ struct FlightData {
   [[nodiscard]] std::string describe(const ActiveChange& change) const;
 };
 
-/// The mission with the targets that held at time_s.
-[[nodiscard]] runtime::Mission mission_at(double time_s, const runtime::RecordedFlight& flight,
-                                          runtime::Mission mission);
-
 /// ReportError where the flight has no tick or its drones are not the mission's.
 [[nodiscard]] FlightData prepare(const runtime::RecordedFlight& flight, const runtime::Mission& mission);
 

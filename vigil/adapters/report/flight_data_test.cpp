@@ -47,22 +47,6 @@ TEST(FlightData, A_recording_of_other_drones_is_refused) {
   EXPECT_THROW((void)prepare(flight, mission), ReportError);
 }
 
-TEST(MissionAt, The_list_of_targets_of_that_time_holds_and_soft_edges_stay) {
-  runtime::RecordedFlight flight = sample_flight();
-  runtime::Mission mission = sample_mission();
-  mission.targets.areas.push_back({"pond", {{0.0, 0.0}, {1.0, 0.0}, {0.0, 1.0}}, 5.0, 0.25, {}});
-  runtime::AreaEntry moved = mission.targets.areas[0];
-  moved.outline_m[0] = {0.1, 0.1};
-  moved.soft_edge_m = 0.0;
-  flight.targets.push_back({30.0, {}, {moved}});
-  const runtime::Mission at_end = mission_at(30.0, flight, mission);
-  EXPECT_EQ(mission_at(29.9, flight, mission).targets.clusters, mission.targets.clusters);
-  EXPECT_TRUE(at_end.targets.clusters.empty());
-  ASSERT_EQ(at_end.targets.areas.size(), 1U);
-  EXPECT_EQ(at_end.targets.areas[0].outline_m[0], Vec2(0.1, 0.1));
-  EXPECT_EQ(at_end.targets.areas[0].soft_edge_m, 0.25);
-}
-
 TEST(Distances, The_least_to_a_nearest_neighbour_is_the_least_of_all_pairs) {
   const SampleOptions options{.drones = 7};
   const runtime::RecordedFlight flight = sample_flight(options);

@@ -18,6 +18,7 @@
 #include "vigil/adapters/report/report_error.hpp"
 #include "vigil/adapters/report/summary_facts.hpp"
 #include "vigil/runtime/mission_setup.hpp"
+#include "vigil/runtime/recorded_targets.hpp"
 
 namespace vigil::report {
 namespace {
@@ -73,9 +74,10 @@ std::vector<Eigen::ArrayXXd> maps_of_snapshots(const FlightData& data, const Cov
                                                const ReportInput& input) {
   std::vector<Eigen::ArrayXXd> maps;
   for (const double time_s : snapshot_times(data)) {
-    const runtime::Mission then = mission_at(time_s, input.flight, input.mission);
-    maps.push_back(then.targets == data.mission.targets ? map.wanted
-                                                        : wanted_on_grid(data, map, runtime::importance(then)));
+    const runtime::Mission then = runtime::mission_at(input.mission, input.flight.targets, time_s);
+    maps.push_back(runtime::targets_of(then) == runtime::targets_of(data.mission)
+                       ? map.wanted
+                       : wanted_on_grid(data, map, runtime::importance(then)));
   }
   return maps;
 }
@@ -83,7 +85,7 @@ std::vector<Eigen::ArrayXXd> maps_of_snapshots(const FlightData& data, const Cov
 }  // namespace
 
 void write_report(const ReportInput& input, const fs::path& directory, const ReportOptions& options) {
-  const runtime::Mission mission = mission_at(kAtTheEnd, input.flight, input.mission);
+  const runtime::Mission mission = runtime::mission_at(input.mission, input.flight.targets, kAtTheEnd);
   const FlightData data = prepare(input.flight, mission);
   const CoverageMap map = coverage_map(data, runtime::importance(mission));
   std::vector<PageFigure> figures = page_figures(data, map);
