@@ -98,7 +98,7 @@ void add_goals(nlohmann::ordered_json& json, const FlightSummary& summary) {
 nlohmann::ordered_json to_json(const FlightSummary& summary) {
   using Json = nlohmann::ordered_json;
   Json percent_at = Json::object();
-  for (const auto& [at_s, percent] : summary.percent_at) percent_at[fmt::format("{:g}", at_s)] = percent;
+  for (const auto& [at_s, percent] : summary.percent_at) percent_at[fmt::format("{}", at_s)] = percent;
   Json revisit = Json::object();
   for (const auto& [area, worst_s] : summary.worst_revisit_s) revisit[area] = worst_s;
   Json active = Json::array();

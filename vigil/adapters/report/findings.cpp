@@ -47,7 +47,7 @@ Finding nearly_zero(const FlightData& data) {
     return finding;
   }
   finding.measured =
-      fmt::format("After {:.4g} s it is at {:.3g} % of its first value (at most {:.0f} % counts as close to zero).",
+      fmt::format("After {:.7g} s it is at {:.3g} % of its first value (at most {:.0f} % counts as close to zero).",
                   data.end_s(), percent, kNearlyZeroPercent);
   finding.verdict = holds_if(percent <= kNearlyZeroPercent);
   return finding;
@@ -63,7 +63,7 @@ Finding low_after_loss(const FlightData& data) {
   }
   const double before = data.flight.ticks.metric_percent[loss->tick - 1];
   const double after = last_percent(data);
-  finding.measured = fmt::format("{} at {:.4g} s: {:.3g} % just before, {:.3g} % at the end.", data.describe(*loss),
+  finding.measured = fmt::format("{} at {:.7g} s: {:.3g} % just before, {:.3g} % at the end.", data.describe(*loss),
                                  data.time_s(loss->tick), before, after);
   finding.verdict = holds_if(after < before || after <= kNearlyZeroPercent);
   return finding;
@@ -96,7 +96,7 @@ Finding within_speed_limit(const FlightData& data) {
     }
   }
   return {"Control inputs stay within the velocity limit.",
-          fmt::format("The fastest was {:.4f} m/s ({}, {:.4g} s) with a limit of {:.4g} m/s.", most,
+          fmt::format("The fastest was {:.4f} m/s ({}, {:.7g} s) with a limit of {:.4g} m/s.", most,
                       data.flight.drones[where % data.drones()], data.time_s(where / data.drones()), limit),
           holds_if(most <= limit + kRounding)};
 }
@@ -109,7 +109,7 @@ Finding goes_on_after_loss(const FlightData& data) {
   const double before = mean_speed(data, 0, loss->tick);
   const double after = mean_speed(data, loss->tick, data.ticks());
   finding.measured =
-      fmt::format("Active drones were asked for {:.3f} m/s on average before {:.4g} s and for {:.3f} m/s from then on.",
+      fmt::format("Active drones were asked for {:.3f} m/s on average before {:.7g} s and for {:.3f} m/s from then on.",
                   before, data.time_s(loss->tick), after);
   finding.verdict = holds_if(after >= kLeastActivity * before && after > 0.0);
   return finding;
@@ -136,7 +136,7 @@ Finding drawn_to_targets(const FlightData& data, const CoverageMap& map) {
 Finding keeps_from(const std::string& what, const Least& least, double bound_m, Source source) {
   if (!std::isfinite(least.distance_m)) return {};
   return {fmt::format("The drones keep away from {}.", what),
-          fmt::format("The nearest was {:.4f} m at {:.4g} s; at least {:.4g} m are asked for.", least.distance_m,
+          fmt::format("The nearest was {:.4f} m at {:.7g} s; at least {:.4g} m are asked for.", least.distance_m,
                       least.time_s, bound_m),
           holds_if(least.distance_m >= bound_m - kRounding), source};
 }
@@ -147,7 +147,7 @@ Finding active_keep_distance(const FlightData& data) {
   Finding finding{"Active drones always keep more than the safety distance between them.",
                   "There never were two active drones.", Verdict::kNotTested};
   if (!std::isfinite(least.distance_m)) return finding;
-  finding.measured = fmt::format("The smallest distance was {:.4f} m at {:.4g} s, with R_s = {:.4g} m.",
+  finding.measured = fmt::format("The smallest distance was {:.4f} m at {:.7g} s, with R_s = {:.4g} m.",
                                  least.distance_m, least.time_s, bound);
   finding.verdict = holds_if(least.distance_m >= bound - kRounding);
   return finding;
@@ -159,7 +159,7 @@ Finding airborne_keep_distance(const FlightData& data) {
   Finding finding{"Drones that are in the air keep the safety distance, whether they are active or not.",
                   "There never were two drones in the air.", Verdict::kNotTested, Source::kMission};
   if (!std::isfinite(least.distance_m)) return finding;
-  finding.measured = fmt::format("The smallest distance was {:.4f} m at {:.4g} s, with R_s = {:.4g} m.",
+  finding.measured = fmt::format("The smallest distance was {:.4f} m at {:.7g} s, with R_s = {:.4g} m.",
                                  least.distance_m, least.time_s, bound);
   finding.verdict = holds_if(least.distance_m >= bound - kRounding);
   return finding;
@@ -169,7 +169,7 @@ Finding lost_is_passed(const FlightData& data, const ClosestToLost& closest) {
   Finding finding{"Once it has failed and is down, a drone is no obstacle any more: others come closer to it than R_s.",
                   "No active drone was lost and came down in this flight.", Verdict::kNotTested};
   if (!std::isfinite(closest.distance_m)) return finding;
-  finding.measured = fmt::format("The closest was {} to {}, {:.4f} m at {:.4g} s.", data.flight.drones[closest.active],
+  finding.measured = fmt::format("The closest was {} to {}, {:.4f} m at {:.7g} s.", data.flight.drones[closest.active],
                                  data.flight.drones[closest.lost], closest.distance_m, data.time_s(closest.tick));
   if (closest.distance_m >= data.mission.safety.separation_m) {
     finding.measured += " None had to come closer than R_s in this flight.";
@@ -196,7 +196,7 @@ std::string jump_note(const FlightData& data) {
   const auto peak = std::max_element(percent.begin() + static_cast<std::ptrdiff_t>(loss->tick),
                                      percent.begin() + static_cast<std::ptrdiff_t>(second_later) + 1);
   return fmt::format(
-      "Here the active drones changed at {:.4g} s ({}): the metric jumped from {:.3g} % to as much as {:.3g} % of its "
+      "Here the active drones changed at {:.7g} s ({}): the metric jumped from {:.3g} % to as much as {:.3g} % of its "
       "first "
       "value within a second, and ended at {:.3g} %. {} phases were added up by the end: total mass {}.",
       data.time_s(loss->tick), data.describe(*loss), percent[loss->tick - 1], *peak, last_percent(data),

@@ -211,7 +211,7 @@ Figure snapshot_figure(const FlightData& data, const CoverageMap& map, const std
     figure.data += paths.data;
     entries = paths.legend;
     panels += row.at(static_cast<int>(i)) + field_axes(data, i == 0) + paths.labels;
-    panels += title(fmt::format("t = {:.4g} s", times[i])) + fmt::format("plot {}{}\n", backdrop, paths.plot);
+    panels += title(fmt::format("t = {:.7g} s", times[i])) + fmt::format("plot {}{}\n", backdrop, paths.plot);
   }
   figure.commands +=
       "set multiplot\n" + panel_style() + "unset key\n" + panels + legend(row, entries) + "unset multiplot\n";

@@ -58,7 +58,7 @@ std::string figure_section(const PageFigure& figure) {
 std::string header(const FlightData& data) {
   const runtime::Mission& mission = data.mission;
   return fmt::format(
-      "<header><h1>{}</h1><p>{}</p><p>{} drones &middot; {:g} &times; {:g} m &middot; {:.4g} s &middot; accounting "
+      "<header><h1>{}</h1><p>{}</p><p>{} drones &middot; {:g} &times; {:g} m &middot; {:.7g} s &middot; accounting "
       "<code>{}</code></p></header>\n",
       escaped(mission.name), escaped(mission.description), data.drones(), data.field.length_x, data.field.length_y,
       data.end_s() - data.time_s(0), escaped(runtime::name_of(mission.control.accounting)));

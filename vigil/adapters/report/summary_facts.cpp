@@ -36,6 +36,12 @@ class Summary {
   Json json_;
 };
 
+/// So many digits, and never an exponent for what is large.
+std::string large(double value, int digits) {
+  return std::abs(value) < std::pow(10.0, digits) ? fmt::format("{:.{}g}", value, digits)
+                                                  : fmt::format("{:.0f}", value);
+}
+
 std::string metres(double value) { return std::isfinite(value) ? fmt::format("{:.4g} m", value) : "none"; }
 
 double recorded_least(const FlightData& data, double runtime::Clearances::* distance) {
@@ -129,20 +135,20 @@ Rows coverage_rows(const FlightData& data, const Summary& summary) {
     for (const auto& [area, worst] : revisit->items()) {
       if (worst.is_number())
         rows.push_back(
-            {fmt::format("longest that part of '{}' went unseen", area), fmt::format("{:.3g} s", worst.get<double>())});
+            {fmt::format("longest that part of '{}' went unseen", area), large(worst.get<double>(), 3) + " s"});
     }
   }
   return rows;
 }
 
 Finding deadline(const Summary& summary, const std::string& name, double asked_s) {
-  Finding finding{fmt::format("No part of '{}' goes unseen for more than {:.4g} s.", name, asked_s),
-                  fmt::format("Asked: {:.4g} s. The worst is not known: summary.json does not tell it.", asked_s),
+  Finding finding{fmt::format("No part of '{}' goes unseen for more than {} s.", name, large(asked_s, 4)),
+                  fmt::format("Asked: {} s. The worst is not known: summary.json does not tell it.", large(asked_s, 4)),
                   Verdict::kNotTested, Source::kMission};
   const Json* all = summary.at("/worst_revisit_s");
   if (all == nullptr || !all->is_object() || !all->contains(name) || !all->at(name).is_number()) return finding;
   const double worst_s = all->at(name).get<double>();
-  finding.measured = fmt::format("Asked: {:.4g} s. Worst: {:.4g} s.", asked_s, worst_s);
+  finding.measured = fmt::format("Asked: {} s. Worst: {} s.", large(asked_s, 4), large(worst_s, 4));
   finding.verdict = worst_s <= asked_s + kRounding ? Verdict::kHolds : Verdict::kDiffers;
   return finding;
 }
@@ -158,12 +164,12 @@ std::vector<Finding> deadlines_of(const FlightData& data, const Summary& summary
 
 Rows timing_rows(const FlightData& data, const Summary& summary) {
   Rows rows{{"", "value"},
-            {"recorded", fmt::format("{:.4g} s in {} ticks", data.end_s() - data.time_s(0), data.ticks())},
+            {"recorded", fmt::format("{} s in {} ticks", large(data.end_s() - data.time_s(0), 4), data.ticks())},
             {"control rate", fmt::format("{:g} Hz", data.mission.control.rate_hz)}};
   for (const char* name : {"p50", "p99", "max"}) {
     const std::string path = fmt::format("/tick_us/{}", name);
     if (const auto us = summary.number(path.c_str()))
-      rows.push_back({fmt::format("one tick, {}", name), fmt::format("{:.3g} us", *us)});
+      rows.push_back({fmt::format("one tick, {}", name), large(*us, 3) + " us"});
   }
   return rows;
 }
@@ -189,12 +195,12 @@ std::vector<std::string> warnings_of(const FlightData& data, const Summary& summ
   std::vector<std::string> warnings;
   if (!data.flight.is_complete) {
     warnings.push_back(
-        fmt::format("This recording is partial: {}. It is read up to its last complete tick, at {:.4g} s.",
+        fmt::format("This recording is partial: {}. It is read up to its last complete tick, at {:.7g} s.",
                     data.flight.incomplete_reason, data.end_s()));
   }
   const Json* complete = summary.at("/complete");
   if (complete != nullptr && complete->is_boolean() && !complete->get<bool>()) {
-    warnings.push_back(fmt::format("The flight was stopped before its time, at {:.4g} of {:.4g} s.", data.end_s(),
+    warnings.push_back(fmt::format("The flight was stopped before its time, at {:.7g} of {:.7g} s.", data.end_s(),
                                    data.mission.simulation.duration_s));
   }
   if (summary.is_damaged())
