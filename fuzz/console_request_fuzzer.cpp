@@ -44,6 +44,9 @@ bool is_message(std::string_view text) {
   return message != nullptr && std::holds_alternative<Body>(message->body);
 }
 
+/// A thread of its own answers that, after a moment.
+bool asks_why(std::string_view text) { return is_message<console::Why>(text); }
+
 /// A thread of its own answers that, after as long as it takes.
 bool looks_ahead(std::string_view text) { return is_message<console::Preview>(text); }
 
@@ -84,6 +87,7 @@ void as_request(std::string_view bytes) {
     require_answer(answer, wire);
     ++answers;
   });
+  if (asks_why(request.body) || request.target.starts_with("/api/why")) console.pass_until([&] { return answers > 0; });
   console.pass(200ms);
   require(answers == 1);
   require_sound(console);
@@ -100,6 +104,12 @@ std::vector<std::string_view> lines_of(std::string_view text) {
   return lines;
 }
 
+std::size_t answers_in(const console::RecordedLine& told) {
+  std::size_t answers = 0;
+  for (const char* type : {"ack", "refused", "pong", "why"}) answers += told.of(type).size();
+  return answers;
+}
+
 /// Every line is answered, once; but for a second hello, which changes who one is.
 void as_messages(const std::vector<std::string_view>& lines, const char* role) {
   ConsoleForTests console;
@@ -112,10 +122,11 @@ void as_messages(const std::vector<std::string_view>& lines, const char* role) {
     console.hub.receive(visitor.id, line);
     console.pass(25ms);
     ++asked;
+    if (asks_why(line)) console.pass_until([&] { return answers_in(*visitor.line) >= asked; });
   }
   console.pass(200ms);
   const console::RecordedLine& told = *visitor.line;
-  require(told.of("ack").size() + told.of("refused").size() + told.of("pong").size() == asked);
+  require(answers_in(told) == asked);
   require(!told.is_closed);
   require_sound(console);
   if (std::string_view(role) == "viewer") require_untouched(console);

@@ -17,12 +17,14 @@ PATIENCE_S = 30  # for a busy machine; what is waited for comes at once on an id
 class WebSocket:
     """A connection to /live. `head` is the server's answer to the upgrade."""
 
-    def __init__(self, port, headers=(), protocol="vigil.v1", host=None, path="/live", receive_buffer=None):
+    def __init__(self, port, headers=(), protocol="vigil.v1", host=None, path="/live", receive_buffer=None, tls=None):
         self.sock = socket.socket()
         if receive_buffer:
             self.sock.setsockopt(socket.SOL_SOCKET, socket.SO_RCVBUF, receive_buffer)
         self.sock.settimeout(PATIENCE_S)
         self.sock.connect(("127.0.0.1", port))
+        if tls:
+            self.sock = tls.wrap_socket(self.sock, server_hostname="127.0.0.1")
         lines = [
             f"GET {path} HTTP/1.1",
             f"Host: {host or f'127.0.0.1:{port}'}",
@@ -107,7 +109,7 @@ class WebSocket:
     def ask(self, **command):
         """Sends a command; its answer."""
         self.send(command)
-        return self.wait_for(lambda m: m["type"] in ("ack", "refused", "pong") and m["id"] == command["id"])
+        return self.wait_for(lambda m: m["type"] in ("ack", "refused", "pong", "why") and m["id"] == command["id"])
 
     def is_closed(self):
         """Whether the server ends the connection."""

@@ -27,6 +27,7 @@ class Replay(unittest.TestCase):
         cls.folder = tempfile.TemporaryDirectory()
         recorded = pathlib.Path(cls.folder.name) / "flight"
         simulate(recorded)
+        cls.recorded = recorded
         cls.program = Program(VIGIL, recorded, command="replay")
 
     @classmethod
@@ -122,6 +123,19 @@ class Replay(unittest.TestCase):
         status, refused = self.program.json("POST", "/api/commands", {"type": "land_all", "id": 1})
         self.assertEqual((status, refused["code"]), (409, "not_now"))
 
+    def test_why_is_what_the_command_prints(self):
+        for time_s in (18.0, 3.5):
+            self.go_to(time_s)
+            command = [VIGIL, "replay", self.recorded, "--why", "cf2", "--at", str(time_s), "--json"]
+            printed = json.loads(subprocess.run(command, check=True, capture_output=True).stdout)
+            told = self.ask("why", drone="cf2")
+            by_http = self.program.json("GET", "/api/why?drone=cf2")[1]
+            for answer in (told, by_http):
+                self.assertEqual({key: answer[key] for key in printed}, printed)
+                self.assertEqual(set(answer) - set(printed), {"type", "id", "epoch"})
+        self.assertEqual(self.ask("why", drone="x")["code"], "unknown_drone")
+        self.assertEqual(self.ask("why")["code"], "malformed")
+
     def test_the_clock_is_one_for_everybody(self):
         other = WebSocket(self.program.port)
         self.addCleanup(other.close)
@@ -132,7 +146,10 @@ class Replay(unittest.TestCase):
 
     def test_the_state_is_as_the_description_says(self):
         api = json.loads((PROTOCOL / "openapi.json").read_text())
-        self.assertEqual(list(complaints(self.state(), api["components"]["schemas"]["State"], api)), [])
+        schemas = api["components"]["schemas"]
+        self.assertEqual(list(complaints(self.state(), schemas["State"], api)), [])
+        why = self.program.json("GET", "/api/why?drone=cf1")[1]
+        self.assertEqual(list(complaints(why, schemas["Why"], api)), [])
 
 
 class CommandLine(unittest.TestCase):

@@ -266,6 +266,12 @@ class Rest(unittest.TestCase):
             self.assertEqual(ask(body)[0], 400, body)
         self.assertEqual(ask({"based_on": self.ask("GET", "/api/state")[1]["revision"], "edits": [outside]})[0], 400)
 
+    def test_why_a_drone_flies_as_it_does_is_as_described(self):
+        status, why = self.ask("GET", "/api/why?drone=cf2")
+        self.assertEqual((status, why["drone"]), (200, "cf2"))
+        self.assertEqual(self.ask("GET", "/api/why?drone=x")[0], 404)
+        self.assertEqual(self.ask("GET", "/api/why")[0], 400)
+
     def test_the_mission_that_is_saved_is_one(self):
         status, text = self.ask("GET", "/api/mission?format=yaml")
         with tempfile.TemporaryDirectory() as folder:

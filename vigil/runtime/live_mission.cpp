@@ -42,4 +42,16 @@ void LiveMission::start() {
   thread_ = std::jthread([this](const std::stop_token& stop) { drive_(stop, loop_); });
 }
 
+std::optional<swarm::SwarmState> LiveMission::copy_state(const std::atomic<bool>& cancelled) {
+  using namespace std::chrono_literals;
+  constexpr int kMostLooks = 1000;
+  const std::lock_guard alone(asking_);
+  loop_.ask_state();
+  for (int looks = 0; looks < kMostLooks && !cancelled.load(std::memory_order_relaxed); ++looks) {
+    if (std::optional<swarm::SwarmState> state = loop_.take_state()) return state;
+    std::this_thread::sleep_for(1ms);
+  }
+  return std::nullopt;
+}
+
 }  // namespace vigil::runtime

@@ -1,9 +1,12 @@
 #pragma once
 
+#include <atomic>
 #include <cstddef>
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <mutex>
+#include <optional>
 #include <thread>
 #include <utility>
 #include <vector>
@@ -41,6 +44,11 @@ class LiveMission final : public ShownFlight {
   /// the second time.
   void finish();
 
+  /// The swarm's state as the control thread leaves it after this call: waits for it, at most a second. None where
+  /// there is no control thread, or `cancelled` becomes true meanwhile. Any thread but the control thread; several take
+  /// turns.
+  [[nodiscard]] std::optional<swarm::SwarmState> copy_state(const std::atomic<bool>& cancelled);
+
   [[nodiscard]] ControlLoop& loop() noexcept { return loop_; }
   [[nodiscard]] const ControlLoop& loop() const noexcept { return loop_; }
 
@@ -63,6 +71,7 @@ class LiveMission final : public ShownFlight {
   LiveFlight flight_;
   ControlLoop loop_;
   Drive drive_;
+  std::mutex asking_;
   std::jthread thread_;
   bool is_finished_ = false;
 };

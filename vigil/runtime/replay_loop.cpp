@@ -28,6 +28,11 @@ ReplayLoop::ReplayLoop(Mission mission, const ReplayScene::Open& open, std::uint
 
 bool ReplayLoop::is_at_end() const noexcept { return scene_.flight().number() >= scene_.flight().tick_count(); }
 
+double ReplayLoop::progress() const noexcept {
+  if (!goal_ || *goal_ <= way_from_) return 1.0;
+  return static_cast<double>(scene_.flight().number() - way_from_) / static_cast<double>(*goal_ - way_from_);
+}
+
 bool ReplayLoop::step() {
   const bool has_stepped = scene_.step();
   has_new_frame_ = has_new_frame_ || has_stepped;
@@ -40,6 +45,7 @@ void ReplayLoop::seek(std::uint64_t number) {
   if (*goal_ == scene_.flight().number()) return;
   scene_.approach(*goal_);
   (void)step();  // what is shown must make sense; it lies at or before the goal
+  way_from_ = scene_.flight().number();
 }
 
 void ReplayLoop::play_on(Time now) {

@@ -34,6 +34,8 @@ class ReplayLoop final : public ShownFlight {
   [[nodiscard]] std::uint64_t jumps() const noexcept { return jumps_; }
   /// On its way to a tick that was sought; what it shows meanwhile lies before it.
   [[nodiscard]] bool is_seeking() const noexcept { return goal_.has_value(); }
+  /// How much of that way is behind, [0, 1]; 1 where it is on none.
+  [[nodiscard]] double progress() const noexcept;
   [[nodiscard]] bool is_at_end() const noexcept;
 
   [[nodiscard]] const Mission& mission() const noexcept override { return scene_.first_mission(); }
@@ -60,6 +62,7 @@ class ReplayLoop final : public ShownFlight {
   std::uint32_t epoch_;
   std::uint64_t steps_a_turn_;
   std::optional<std::uint64_t> goal_;
+  std::uint64_t way_from_ = 0;  ///< where the way to goal_ began
   std::uint64_t jumps_ = 0;
   double speed_ = 1.0;
   bool is_paused_ = true;

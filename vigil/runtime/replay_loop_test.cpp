@@ -108,6 +108,21 @@ TEST_F(ReplayLoopTest, Seeking_shows_the_last_tick_at_that_time_or_before) {
   EXPECT_EQ(shown().snapshot.tick, kTicks - 1);
 }
 
+TEST_F(ReplayLoopTest, On_its_way_it_knows_which_share_of_it_is_behind) {
+  pass(10ms);
+  EXPECT_EQ(loop.progress(), 1.0);
+  order(LiveCommand::Kind::kSeek, 13.98);
+  loop.turn(now);
+  const double goal = kTicks;
+  while (loop.is_seeking()) {
+    // The way began at the first tick, and one step of it shows where it began.
+    EXPECT_NEAR(loop.progress(), (static_cast<double>(loop.scene().flight().number()) - 1.0) / (goal - 1.0),
+                2.0 / goal);
+    loop.turn(now);
+  }
+  EXPECT_EQ(loop.progress(), 1.0);
+}
+
 TEST_F(ReplayLoopTest, A_step_is_one_tick_on_or_back_and_stands_still_there) {
   order(LiveCommand::Kind::kResumeClock);
   pass(1s);

@@ -8,6 +8,7 @@ import './look/panels.css';
 import './look/overlays.css';
 import './look/foresight.css';
 import './look/replay.css';
+import './look/why.css';
 import type { Socket, World } from './link/console_link';
 import type { MapView } from './map/map_view';
 import { AppContext, type App } from './panels/app_context';
@@ -16,6 +17,7 @@ import { listenForKeys } from './panels/shortcuts';
 import { Editor } from './session/editor';
 import { FleetOrders } from './session/fleet_orders';
 import { Foresight } from './session/foresight';
+import { Reasons } from './session/reasons';
 import { Session } from './session/session';
 import { Settings } from './session/settings';
 
@@ -50,6 +52,7 @@ function makeApp(): App {
     settings,
     orders,
     foresight: new Foresight(session, editor),
+    reasons: new Reasons(session, editor),
     map: signal<MapView | null>(null),
     isHelpOpen: signal(false),
     isLogOpen: signal(false),

@@ -114,6 +114,11 @@ Preview preview_in(const JsonReader& reader) {
   return preview;
 }
 
+Why why_in(const JsonReader& reader) {
+  reader.allow_only({"type", "id", "drone"});
+  return {reader.text("drone", kMostIdBytes)};
+}
+
 LoadMission mission_in(const JsonReader& reader) {
   reader.allow_only({"type", "id", "yaml"});
   return {reader.text("yaml", runtime::kMostMissionBytes)};
@@ -150,6 +155,7 @@ std::optional<MessageBody> body_in(const JsonReader& reader, std::string_view ty
   if (type == "ping") return nothing_in<Ping>(reader);
   if (type == "preview_density") return draft_in<PreviewDensity>(reader);
   if (type == "preview") return preview_in(reader);
+  if (type == "why") return why_in(reader);
   if (type == "editing") return editing_in(reader);
   if (type == "edit") return draft_in<Edit>(reader);
   if (type == "undo") return nothing_in<Undo>(reader);
@@ -217,7 +223,8 @@ Role role_for(const MessageBody& body) {
   if (const auto* wish = std::get_if<DroneWish>(&body))
     return wish->kind == CommandKind::kEmergencyStop ? Role::kSafetyPilot : Role::kOperator;
   const bool only_looks = std::holds_alternative<Hello>(body) || std::holds_alternative<Ping>(body) ||
-                          std::holds_alternative<PreviewDensity>(body) || std::holds_alternative<Preview>(body);
+                          std::holds_alternative<PreviewDensity>(body) || std::holds_alternative<Preview>(body) ||
+                          std::holds_alternative<Why>(body);
   return only_looks ? Role::kViewer : Role::kOperator;
 }
 

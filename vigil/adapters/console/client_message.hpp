@@ -37,6 +37,10 @@ struct Preview {
   std::vector<runtime::TargetEdit> edits;
   std::vector<std::string> without;  ///< ids
 };
+/// Why a drone flies as it does in the newest tick.
+struct Why {
+  std::string drone;  ///< its id
+};
 struct Editing {
   std::vector<runtime::TargetName> what;
 };
@@ -70,7 +74,7 @@ struct LoadMission {
   std::string yaml;
 };
 
-using MessageBody = std::variant<Hello, Ping, PreviewDensity, Preview, Editing, DroneWish, Edit, Undo, Redo,
+using MessageBody = std::variant<Hello, Ping, PreviewDensity, Preview, Why, Editing, DroneWish, Edit, Undo, Redo,
                                  StartAfresh, SetSpeed, Pause, ResumeClock, Seek, StepTicks, LoadMission>;
 
 struct ClientMessage {

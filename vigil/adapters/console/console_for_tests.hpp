@@ -68,7 +68,7 @@ class RecordedLine final : public ClientLine {
  private:
   static bool is_answer(const Json& message) {
     const Json& type = message.at("type");
-    return type == "ack" || type == "refused" || type == "pong" || type == "preview";
+    return type == "ack" || type == "refused" || type == "pong" || type == "preview" || type == "why";
   }
 };
 

@@ -6,6 +6,7 @@
 #include "vigil/adapters/console/frames.hpp"
 #include "vigil/adapters/console/preview_job.hpp"
 #include "vigil/adapters/console/server_messages.hpp"
+#include "vigil/adapters/console/why_answer.hpp"
 #include "vigil/runtime/controller_setup.hpp"
 #include "vigil/runtime/mission_file.hpp"
 #include "vigil/runtime/mission_setup.hpp"
@@ -139,6 +140,13 @@ void Desk::look_ahead(std::uint64_t ticket, std::uint64_t asker, const Preview& 
     tell(answer_of(job, cancelled));
   };
   if (!previews_.submit(asker, work)) refuse(ticket, "busy", "too many previews wait; try again");
+}
+
+void Desk::explain(const WhyQuestion& question) {
+  const auto work = [tell = tell_, flight = flight_, question](const std::atomic<bool>& cancelled) {
+    tell(answer_of(question, *flight, cancelled));
+  };
+  if (!questions_.submit(question.asker, work)) refuse(question.ticket, "busy", kTooManyQuestions);
 }
 
 void Desk::load_mission(std::uint64_t ticket, const std::string& yaml) {

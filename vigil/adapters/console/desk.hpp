@@ -13,6 +13,7 @@
 #include "vigil/adapters/console/client_message.hpp"
 #include "vigil/adapters/console/server_messages.hpp"
 #include "vigil/adapters/console/trail_ring.hpp"
+#include "vigil/adapters/console/why_question.hpp"
 #include "vigil/runtime/ground_picture.hpp"
 #include "vigil/runtime/live_mission.hpp"
 #include "vigil/runtime/mission_desk.hpp"
@@ -78,7 +79,7 @@ struct DeskAnswer {
   std::uint64_t revision = 0;
   SharedBytes preview;  ///< the frame; null but for previews
 };
-/// A look ahead is done.
+/// A look ahead is done, or a question answered.
 struct PreviewNews {
   std::uint64_t ticket = 0;
   Json answer;  ///< without its id
@@ -99,7 +100,8 @@ class Desk {
                                                                          const runtime::SavedFlight* saved)>;
   using Tell = std::function<void(DeskNews)>;
 
-  /// `tell` is called on the desk's thread, and on one of its own for looks ahead. store: null where nothing is kept.
+  /// `tell` is called on the desk's thread, and on those of its own for looks ahead and for questions. store: null
+  /// where nothing is kept.
   Desk(MakeFlight make_flight, Tell tell, std::shared_ptr<runtime::FlightStore> store);
 
   /// Flies a mission: tells FlightNews and TargetsNews. Throws what making a flight throws.
@@ -115,6 +117,8 @@ class Desk {
   /// Lets a thread of its own look ahead; a newer request of the same asker supersedes it. without: drones' indices.
   void look_ahead(std::uint64_t ticket, std::uint64_t asker, const Preview& request,
                   const std::vector<std::size_t>& without);
+  /// Lets another thread of its own say why a drone flies as it does.
+  void explain(const WhyQuestion& question);
   void load_mission(std::uint64_t ticket, const std::string& yaml);
   /// An event of the mission file wants other targets.
   void play(std::uint32_t epoch, std::size_t event_index);
@@ -151,7 +155,9 @@ class Desk {
   int looks_since_save_ = 0;
   double saved_at_s_ = 0.0;  ///< mission time
   bool save_failed_ = false;
-  runtime::PreviewThread previews_;  ///< last: it ends before what it tells is gone
+  // Last: they end before what they tell is gone.
+  runtime::PreviewThread previews_;
+  runtime::PreviewThread questions_;  ///< apart: an answer takes a moment, a look ahead may take a second
 };
 
 }  // namespace vigil::console

@@ -41,7 +41,7 @@ bool is_of_recordings(const MessageBody& body) {
 std::string_view unfit(const MessageBody& body, bool is_recording) {
   if (!is_recording && is_of_recordings(body))
     return "this is a flight, not a recording: time goes on in it; `vigil replay DIR` shows a recording";
-  if (is_recording && !is_of_recordings(body) && !is_of_the_clock(body))
+  if (is_recording && !is_of_recordings(body) && !is_of_the_clock(body) && !std::holds_alternative<Why>(body))
     return "this is a recording: what happened in it cannot be changed; `vigil serve MISSION` flies";
   return {};
 }
@@ -235,6 +235,7 @@ void Hub::dispatch(const ClientMessage& message, const Author& author, std::uint
                  },
                  [&](const PreviewDensity& body) { preview(body, author, message.id.value_or(0), ticket); },
                  [&](const Preview& body) { look_ahead(body, author, ticket); },
+                 [&](const Why& body) { explain(body, author, ticket); },
                  [&](const Undo&) { ask_desk(ticket, [=](Desk& desk) { desk.undo(ticket, by); }); },
                  [&](const Redo&) { ask_desk(ticket, [=](Desk& desk) { desk.redo(ticket, by); }); },
                  [&](const LoadMission& body) {
@@ -273,18 +274,23 @@ void Hub::set_speed(double factor, std::uint64_t ticket) {
   submit({command}, ticket);
 }
 
+/// Its index; refused where it is not there.
+std::optional<std::size_t> Hub::drone_named(const std::string& id, std::uint64_t ticket) {
+  const auto found = drone_index_.find(id);
+  if (found != drone_index_.end()) return found->second;
+  refuse(ticket, "unknown_drone", fmt::format("there is no drone {}", runtime::on_one_line(id, 60)));
+  return std::nullopt;
+}
+
 /// The drones that a wish names; refused where one of them is not there.
 std::optional<std::vector<std::size_t>> Hub::drones_of(const DroneWish& wish, std::uint64_t ticket) {
   std::vector<std::size_t> drones;
   if (wish.all)
     for (std::size_t i = 0; i < flight_->mission().drones.size(); ++i) drones.push_back(i);
   for (const std::string& id : wish.drones) {
-    const auto found = drone_index_.find(id);
-    if (found == drone_index_.end()) {
-      refuse(ticket, "unknown_drone", fmt::format("there is no drone {}", runtime::on_one_line(id, 60)));
-      return std::nullopt;
-    }
-    drones.push_back(found->second);
+    const auto drone = drone_named(id, ticket);
+    if (!drone) return std::nullopt;
+    drones.push_back(*drone);
   }
   return drones;
 }
@@ -346,6 +352,16 @@ void Hub::look_ahead(const Preview& body, const Author& author, std::uint64_t ti
   const auto without = drones_of(named, ticket);
   if (!without) return;
   ask_desk(ticket, [=, asker = author.client](Desk& desk) { desk.look_ahead(ticket, asker, body, *without); });
+}
+
+void Hub::explain(const Why& body, const Author& author, std::uint64_t ticket) {
+  const auto drone = drone_named(body.drone, ticket);
+  if (!drone) return;
+  // Whoever asks without a connection stands for nobody else: tickets go on from where clients' numbers cannot be.
+  constexpr std::uint64_t kBeyondClients = std::uint64_t{1} << 32U;
+  const WhyQuestion question{ticket, author.client != 0 ? author.client : kBeyondClients + ticket, *drone};
+  if (!flight_->is_recording()) return ask_desk(ticket, [question](Desk& desk) { desk.explain(question); });
+  if (!links_.at_recording || !links_.at_recording(question)) refuse(ticket, "busy", kTooManyQuestions);
 }
 
 void Hub::refuse(std::uint64_t ticket, std::string_view code, std::string reason) {

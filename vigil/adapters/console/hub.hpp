@@ -43,6 +43,8 @@ struct HubLinks {
   std::function<double()> wall_ms;                ///< since 1970
   /// Lets the desk's thread do it; false where its queue is full.
   std::function<bool(std::function<void(Desk&)>)> at_desk;
+  /// Lets a recording's thread answer; false where too many wait. Empty where no recording is shown.
+  std::function<bool(const WhyQuestion&)> at_recording = {};
 };
 
 struct HubSetup {
@@ -130,11 +132,13 @@ class Hub {
   void dispatch(const ClientMessage& message, const Author& author, std::uint64_t ticket);
   void wish(const DroneWish& wish, std::uint64_t ticket);
   [[nodiscard]] std::optional<std::vector<std::size_t>> drones_of(const DroneWish& wish, std::uint64_t ticket);
+  [[nodiscard]] std::optional<std::size_t> drone_named(const std::string& id, std::uint64_t ticket);
   void submit(std::vector<runtime::LiveCommand> commands, std::uint64_t ticket);
   void ask_desk(std::uint64_t ticket, std::function<void(Desk&)> task);
   void refuse(std::uint64_t ticket, std::string_view code, std::string reason);
   void preview(const PreviewDensity& body, const Author& author, std::uint64_t request, std::uint64_t ticket);
   void look_ahead(const Preview& body, const Author& author, std::uint64_t ticket);
+  void explain(const Why& body, const Author& author, std::uint64_t ticket);
   void wait_for_control(Waiting& waiting) const;
   void set_editing(ClientId client, const Editing& editing);
   void tell_presence();

@@ -108,6 +108,7 @@ void Hub::take(const RecordingNews& news) {
 
 void Hub::take(const HistoryNews& news) {
   replay_ = news.state;
+  if (news.state.is_seeking) next_status_ = {};
   if (!news.is_afresh) {
     for (const ConsoleEvent& event : news.events) keep_event(event_json(event));
     return;

@@ -129,6 +129,7 @@ std::vector<Permission> permissions() {
   std::vector<Permission> all{{{{"type", "ping"}}, Role::kViewer},
                               {{{"type", "preview_density"}, {"based_on", 1}, {"edits", {edit}}}, Role::kViewer},
                               {{{"type", "preview"}, {"without", {"nobody"}}}, Role::kViewer},
+                              {{{"type", "why"}, {"drone", "nobody"}}, Role::kViewer},
                               {{{"type", "editing"}, {"what", Json::array()}}, Role::kOperator},
                               {{{"type", "go_to"}, {"drones", "all"}, {"place_m", {0.0, 11.0}}}, Role::kOperator},
                               {{{"type", "land_all"}}, Role::kOperator},

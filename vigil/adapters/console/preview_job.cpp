@@ -1,27 +1,12 @@
 #include "vigil/adapters/console/preview_job.hpp"
 
-#include <chrono>
 #include <exception>
-#include <thread>
 
 #include "vigil/adapters/console/preview_json.hpp"
 #include "vigil/runtime/mission_setup.hpp"
 
 namespace vigil::console {
 namespace {
-
-using namespace std::chrono_literals;
-
-/// The state of the flight; none where its control thread gives none, since it has ended.
-std::optional<swarm::SwarmState> state_of(runtime::ControlLoop& loop, const std::atomic<bool>& cancelled) {
-  constexpr int kMostLooks = 1000;
-  loop.ask_state();
-  for (int looks = 0; looks < kMostLooks && !cancelled.load(std::memory_order_relaxed); ++looks) {
-    if (std::optional<swarm::SwarmState> state = loop.take_state()) return state;
-    std::this_thread::sleep_for(1ms);
-  }
-  return std::nullopt;
-}
 
 DeskNews refusal(const PreviewJob& job, std::string_view code, std::string reason) {
   return DeskRefusal{job.ticket, code, std::move(reason)};
@@ -30,7 +15,7 @@ DeskNews refusal(const PreviewJob& job, std::string_view code, std::string reaso
 DeskNews look_ahead(const PreviewJob& job, const std::atomic<bool>& cancelled) {
   const auto superseded = [&] { return refusal(job, "superseded", "a newer preview was asked for"); };
   if (cancelled.load(std::memory_order_relaxed)) return superseded();
-  std::optional<swarm::SwarmState> state = state_of(job.flight->loop(), cancelled);
+  std::optional<swarm::SwarmState> state = job.flight->copy_state(cancelled);
   if (cancelled.load(std::memory_order_relaxed)) return superseded();
   if (!state || state->ticks() == 0)
     return refusal(job, "not_now", "the flight has not begun, or has ended; try again");

@@ -19,7 +19,7 @@ struct PreviewJob {
 };
 
 /// Does it: waits for the flight's state, at most a second, and runs it ahead. PreviewNews, or why there is none.
-/// One thread at a time for each flight.
+/// Any thread but the flight's own.
 [[nodiscard]] DeskNews answer_of(const PreviewJob& job, const std::atomic<bool>& cancelled);
 
 }  // namespace vigil::console

@@ -9,6 +9,8 @@
 #include "vigil/adapters/console/frames.hpp"
 #include "vigil/adapters/console/preview_json.hpp"
 #include "vigil/adapters/console/server_messages.hpp"
+#include "vigil/adapters/console/why_answer.hpp"
+#include "vigil/runtime/controller_setup.hpp"
 #include "vigil/runtime/mission_file.hpp"
 
 namespace vigil::console {
@@ -224,6 +226,7 @@ const std::vector<std::pair<std::string, std::string>>& client_texts() {
       {"look ahead", R"({"type":"preview","id":14})"},
       {"look ahead with all",
        R"({"type":"preview","id":15,"seconds":30,"based_on":7,"edits":[{"op":"set_weight","kind":"cluster","name":"east","weight":3}],"without":["a"]})"},
+      {"why", R"({"type":"why","id":23,"drone":"a"})"},
       {"not JSON", R"({"type":"ping","id":)"},
       {"not an object", R"([1,2])"},
       {"no type", R"({"id":1})"},
@@ -246,6 +249,8 @@ const std::vector<std::pair<std::string, std::string>>& client_texts() {
       {"half a step", R"({"type":"step","id":20,"ticks":0.5})"},
       {"no step", R"({"type":"step","id":21,"ticks":0})"},
       {"seek without a time", R"({"type":"seek","id":22})"},
+      {"why whoever", R"({"type":"why","id":24})"},
+      {"why all", R"({"type":"why","id":25,"drone":["a"]})"},
       {"a number beyond all", R"({"type":"set_speed","id":1,"factor":1e999})"},
   };
   return kTexts;
@@ -273,6 +278,7 @@ Json replay_status_vector(const std::vector<runtime::AreaState>& areas, StatusCo
   status.replay = ReplayState{.number = 1151,
                               .is_recomputed = true,
                               .is_seeking = false,
+                              .progress = 1.0,
                               .is_at_end = true,
                               .difference = "metric: recorded 0.5, recomputed 0.25"};
   return status_json(areas, status);
@@ -299,6 +305,26 @@ Json preview_vector() {
   what_if.samples.back().active = 0;
   Json message = preview_json({1151, 23.02, as_is, what_if}, {3, 7, {}});
   message["id"] = 14;
+  return message;
+}
+
+/// The first drone, close to the second one and to a wall, after two ticks.
+Json why_vector(const runtime::Mission& mission) {
+  swarm::SwarmState state(runtime::swarm_parameters(mission, swarm::Intent::kCover));
+  std::vector<swarm::DroneObservation> seen(2);
+  for (std::size_t i = 0; i < seen.size(); ++i) {
+    seen[i].position = {0.140625 + 0.265625 * static_cast<double>(i), 1.0};
+    seen[i].height_m = 1.0;
+    seen[i].age_s = seen[i].link_age_s = 0.0;
+    seen[i].mode = swarm::VehicleMode::kFlying;
+  }
+  swarm::Command command;
+  command.kind = swarm::CommandKind::kSetTarget;
+  command.target = runtime::coverage_target(mission, state.basis());
+  swarm::Snapshot snapshot(2);
+  for (int n = 0; n < 2; ++n) swarm::tick(state, seen, std::span(&command, 1), snapshot);
+  Json message = why_json(state, swarm::DroneId(0), mission, 3);
+  message["id"] = 23;
   return message;
 }
 
@@ -346,6 +372,7 @@ Json server_messages() {
   add("refused, no id", refused_json({{}, "malformed", "it is not JSON in UTF-8"}));
   add("pong", pong_json(11, 1024.5));
   add("preview", preview_vector());
+  add("why", why_vector(mission));
   add("bye", bye_json("ending", "the program ends"));
   return list;
 }

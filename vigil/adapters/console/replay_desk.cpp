@@ -8,6 +8,7 @@
 #include "vigil/adapters/console/density_picture.hpp"
 #include "vigil/adapters/console/recorded_words.hpp"
 #include "vigil/adapters/console/server_messages.hpp"
+#include "vigil/adapters/console/why_answer.hpp"
 
 namespace vigil::console {
 namespace {
@@ -15,6 +16,7 @@ namespace {
 using namespace std::chrono_literals;
 
 constexpr auto kLookEvery = 200ms;
+constexpr std::size_t kMostQuestions = 64;
 constexpr std::size_t kMostEvents = 1000;  ///< that are told of at once; the newest
 
 SharedBytes shared(std::string bytes) { return std::make_shared<const std::string>(std::move(bytes)); }
@@ -76,6 +78,7 @@ ReplayState ReplayDesk::state() const {
   ReplayState state{.number = flight.number(),
                     .is_recomputed = flight.is_recomputed(),
                     .is_seeking = recording_->is_seeking(),
+                    .progress = recording_->progress(),
                     .is_at_end = recording_->is_at_end(),
                     .difference = {}};
   if (const auto difference = flight.difference())
@@ -108,8 +111,44 @@ void ReplayDesk::tell_history() {
   tell_(std::move(news));
 }
 
+/// On its way to where it was sent: how far it has come.
+void ReplayDesk::tell_progress() {
+  tell_(HistoryNews{.state = state(), .events = {}, .is_afresh = false, .trails = {}});
+}
+
+bool ReplayDesk::ask(const WhyQuestion& question) {
+  std::optional<WhyQuestion> older;
+  {
+    const std::lock_guard lock(mutex_);
+    const auto same = std::ranges::find(questions_, question.asker, &WhyQuestion::asker);
+    if (same == questions_.end() && questions_.size() >= kMostQuestions) return false;
+    if (same == questions_.end())
+      questions_.push_back(question);
+    else
+      older = std::exchange(*same, question);
+  }
+  if (older) tell_(DeskRefusal{older->ticket, "superseded", std::string(kNewerQuestion)});
+  return true;
+}
+
+DeskNews ReplayDesk::answer_to(const WhyQuestion& question) const {
+  const runtime::ReplayedFlight& flight = recording_->scene().flight();
+  if (flight.is_recomputed()) return answer_from(flight.state(), question, *recording_);
+  return DeskRefusal{question.ticket, "not_now", "this moment cannot be recomputed: not every tick before it was kept"};
+}
+
+void ReplayDesk::answer_questions() {
+  std::vector<WhyQuestion> asked;
+  {
+    const std::lock_guard lock(mutex_);
+    asked.swap(questions_);
+  }
+  for (const WhyQuestion& question : asked) tell_(answer_to(question));
+}
+
 ReplayDesk::Time ReplayDesk::turn(Time now) {
   const Time next = recording_->turn(now);
+  answer_questions();
   is_arriving_ = is_arriving_ || recording_->jumps() != std::exchange(told_jumps_, recording_->jumps());
   const bool has_arrived = is_arriving_ && !recording_->is_seeking();
   if (now < next_look_ && !has_arrived) return next;
@@ -117,7 +156,10 @@ ReplayDesk::Time ReplayDesk::turn(Time now) {
   if (recording_->scene().flight().number() == told_number_ && !has_arrived) return next;
   if (recording_->scene().revision() != told_revision_) tell_targets();
   tell_ground();
-  if (has_arrived || !is_arriving_) tell_history();
+  if (has_arrived || !is_arriving_)
+    tell_history();
+  else
+    tell_progress();
   return next;
 }
 

@@ -114,7 +114,8 @@ void Rest::answer_api(const HttpRequest& request, const std::string& path, const
   if (path == "/api/areas" && is_post) return import_areas(request, *role, reply);
   if (path == "/api/commands" && is_post) return answer_command(parse_client_message(request.body), *role, reply);
   if (path == "/api/preview" && is_post) return answer_command(parse_preview(request.body), *role, reply);
-  for (const char* known : {"/api/state", "/api/mission", "/api/areas", "/api/commands", "/api/preview"})
+  if (path == "/api/why" && is_get) return explain(query, *role, reply);
+  for (const char* known : {"/api/state", "/api/mission", "/api/areas", "/api/commands", "/api/preview", "/api/why"})
     if (path == known) return reply(refusal(405, "wrong_method", "see protocol/openapi.json"));
   reply(not_found());
 }
@@ -143,6 +144,13 @@ void Rest::answer_command(const std::variant<ClientMessage, MessageRefusal>& par
   if (!message.id) return reply(refusal(400, "malformed", "hello is for WebSockets"));
   hub_.command(message, role, std::string(kRestName),
                [reply](const Json& json) { reply(json_answer(status_of(json), json)); });
+}
+
+void Rest::explain(const std::string& query, Role role, const Reply& reply) {
+  constexpr std::string_view kName = "drone=";
+  if (!hub_.has_ticked()) return reply(nothing_flies());
+  if (!query.starts_with(kName)) return reply(refusal(400, "malformed", "say of which drone: /api/why?drone=ID"));
+  answer_command(ClientMessage{0, "why", Why{query.substr(kName.size())}}, role, reply);
 }
 
 void Rest::import_areas(const HttpRequest& request, Role role, const Reply& reply) {

@@ -48,6 +48,7 @@ class Rest {
  private:
   void answer_api(const HttpRequest& request, const std::string& path, const std::string& query, const Reply& reply);
   void answer_command(const std::variant<ClientMessage, MessageRefusal>& parsed, Role role, const Reply& reply);
+  void explain(const std::string& query, Role role, const Reply& reply);
   void import_areas(const HttpRequest& request, Role role, const Reply& reply);
   [[nodiscard]] HttpAnswer areas() const;
   [[nodiscard]] HttpAnswer mission(const HttpRequest& request, const std::string& query) const;

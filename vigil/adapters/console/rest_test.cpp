@@ -85,7 +85,8 @@ class LockedRestTest : public RestTest {
 };
 
 TEST_F(RestTest, Before_anything_is_flown_it_says_so) {
-  for (const char* target : {"/api/state", "/api/mission", "/api/areas"}) EXPECT_EQ(status(get(target)), 503) << target;
+  for (const char* target : {"/api/state", "/api/mission", "/api/areas", "/api/why?drone=a"})
+    EXPECT_EQ(status(get(target)), 503) << target;
   EXPECT_EQ(status(post("/api/areas", kArea)), 503);
   EXPECT_EQ(json(command({{"type", "land_all"}, {"id", 1}})).at("code"), "not_now");
   EXPECT_EQ(json(get("/api/version")).at("login"), false);
@@ -262,7 +263,8 @@ TEST_F(LockedRestTest, Every_answer_that_is_described_is_given_and_no_other) {
   };
   const std::string viewer = "viewer-0123456789";
   const std::string anybody = "operator-0123456789";
-  const std::vector<HttpRequest> gets{get("/api/version"), get("/api/state"), get("/api/mission"), get("/api/areas")};
+  const std::vector<HttpRequest> gets{get("/api/version"), get("/api/state"), get("/api/mission"), get("/api/areas"),
+                                      get("/api/why?drone=c")};
   const std::vector<HttpRequest> posts{
       post("/api/areas", kArea), command({{"type", "hold"}, {"id", 1}, {"drones", {"a"}}}), preview({{"seconds", 2}})};
   for (const HttpRequest& request : gets) ask(with(request, anybody));
@@ -296,15 +298,26 @@ TEST_F(LockedRestTest, Every_answer_that_is_described_is_given_and_no_other) {
   ask(with(command({{"type", "hold"}, {"id", 1}, {"drones", {"x"}}}), anybody));
   ask(with(command({{"type", "take_off"}, {"id", 1}, {"drones", {"a"}}}), anybody));
   ask(with(preview({{"without", {"x"}}}), anybody));
+  for (const char* target : {"/api/why", "/api/why?drone=x"}) ask(with(get(target), viewer));
   const Json edit{{"op", "set_uniform_floor"}, {"uniform_floor", 0.1}};
   ask(with(preview({{"edits", {edit}}, {"based_on", 99}}), anybody));
   console.most_tasks = 0;  // the desk has no time
   ask(with(posts[2], anybody));
+  ask(with(gets.back(), viewer));
   ask(with(posts[0], anybody));
   ask(with(command({{"type", "undo"}, {"id", 1}}), anybody));
   console.most_tasks = 2;
   rest.answer(with(posts[0], anybody), [](const HttpAnswer&) {});  // another program is faster by a moment
   ask(with(posts[0], anybody));
+  console.most_tasks = 256;
+  console.is_desk_at_work = false;
+  runtime::Mission lone = runtime::small_mission();
+  lone.drones.resize(1);
+  console.tasks.emplace_back([lone](Desk& desk) { desk.begin(lone, nullptr); });  // before it comes to the question
+  rest.answer(with(gets.back(), viewer),
+              [this](const HttpAnswer& answer) { given.insert("GET /api/why " + std::to_string(answer.status)); });
+  console.is_desk_at_work = true;
+  console.pass_until([this] { return given.contains("GET /api/why 409"); });
   std::vector<std::string> differing;
   std::ranges::set_symmetric_difference(given, described(), std::back_inserter(differing));
   EXPECT_EQ(differing, std::vector<std::string>{});

@@ -287,7 +287,8 @@ class Server::Sockets {
         tls_(tls_of(options)),
         hub_({options.program, options.tokens, options.recording_folder},
              {monotonic_now, wall_ms_now,
-              [this](std::function<void(Desk&)> task) { return desk_thread_ && desk_thread_->post(std::move(task)); }}),
+              [this](std::function<void(Desk&)> task) { return desk_thread_ && desk_thread_->post(std::move(task)); },
+              [this](const WhyQuestion& question) { return replay_desk_ != nullptr && replay_desk_->ask(question); }}),
         rest_(hub_, gate_, page_),
         desk_(
             std::move(make_flight), [this](DeskNews news) { tell_hub(std::move(news)); }, std::move(store)),
@@ -316,8 +317,10 @@ class Server::Sockets {
   void show(const std::shared_ptr<runtime::ReplayLoop>& recording, const std::function<bool()>& is_over) {
     ReplayDesk desk(recording, [this](DeskNews news) { tell_hub(std::move(news)); });
     desk.begin();
+    replay_desk_ = &desk;
     const ReplayThread thread(desk, [this](const std::string& text) { tell_hub(DeskTrouble{text}); });
     serve_until(is_over);
+    replay_desk_ = nullptr;
   }
 
   void command(ClientMessage message, Role role, std::string by, std::function<void(const std::string&)> answer) {
@@ -430,6 +433,7 @@ class Server::Sockets {
   Host host_{hub_, rest_, gate_, seats_};
   Desk desk_;
   std::optional<DeskThread> desk_thread_;
+  ReplayDesk* replay_desk_ = nullptr;  ///< during show()
   std::function<void(const DeskNews&)> overhear_;
   std::function<void()> ready_;  ///< until it was called
   std::string address_;

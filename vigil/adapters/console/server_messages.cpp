@@ -43,11 +43,8 @@ Json mission_message(const runtime::Mission& mission, std::uint32_t epoch, std::
 }
 
 Json replay_json(const ReplayState& replay) {
-  return {{"number", replay.number},
-          {"is_recomputed", replay.is_recomputed},
-          {"is_seeking", replay.is_seeking},
-          {"is_at_end", replay.is_at_end},
-          {"difference", replay.difference}};
+  return {{"number", replay.number},     {"is_recomputed", replay.is_recomputed}, {"is_seeking", replay.is_seeking},
+          {"progress", replay.progress}, {"is_at_end", replay.is_at_end},         {"difference", replay.difference}};
 }
 
 }  // namespace

@@ -62,6 +62,7 @@ struct ReplayState {
   std::uint64_t number = 0;    ///< ticks that are behind
   bool is_recomputed = false;  ///< false: what is shown is what was recorded
   bool is_seeking = false;
+  double progress = 1.0;  ///< how much of the way that it seeks is behind, [0, 1]
   bool is_at_end = false;
   std::string difference;  ///< what of the tick came out otherwise than recorded, for people; empty: nothing
 };

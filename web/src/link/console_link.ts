@@ -1,5 +1,5 @@
 import { decodeFrame, FrameError, type Frame } from './frames';
-import { decodeMessage, type Ack, type Preview, type Refused, type ServerMessage } from './messages';
+import { decodeMessage, type Ack, type Preview, type Refused, type ServerMessage, type Why } from './messages';
 import { ShapeError } from './shape';
 
 /** The part of a WebSocket that is used here; tests bring their own. */
@@ -35,7 +35,7 @@ export interface LinkState {
 }
 
 export type Answer =
-  | { readonly ok: true; readonly ack: Ack; readonly preview?: Preview }
+  | { readonly ok: true; readonly ack: Ack; readonly preview?: Preview; readonly why?: Why }
   | { readonly ok: false; readonly refused: Refused };
 export type Command = { readonly type: string } & Readonly<Record<string, unknown>>;
 
@@ -148,7 +148,9 @@ export class ConsoleLink {
     if (!message) return;
     if (message.type === 'ack') this.settle(message.id, { ok: true, ack: message });
     else if (message.type === 'preview')
-      this.settle(message.id, { ok: true, ack: acknowledged(message), preview: message });
+      this.settle(message.id, { ok: true, ack: acknowledged(message, message.revision), preview: message });
+    else if (message.type === 'why')
+      this.settle(message.id, { ok: true, ack: acknowledged(message, null), why: message });
     else if (message.type === 'refused') this.settle(message.id, { ok: false, refused: message });
     else if (message.type === 'bye') this.dismissed(message.code, message.reason);
     else if (message.type === 'hello') this.greeted(message);
@@ -226,8 +228,8 @@ export class ConsoleLink {
   }
 }
 
-/** A preview is its own acknowledgement. */
-const acknowledged = ({ id, tick, revision }: Preview): Ack => ({
+/** A preview, and what a question brought, is its own acknowledgement. */
+const acknowledged = ({ id, tick }: { id: number; tick: number }, revision: number | null): Ack => ({
   type: 'ack',
   id,
   tick,

@@ -113,7 +113,14 @@ const statusShape = record({
   lateness_us: maybe(record({ p50: finite, p99: finite, max: finite })),
   waits_for_resume: flag,
   replay: maybe(
-    record({ number: finite, is_recomputed: flag, is_seeking: flag, is_at_end: flag, difference: sentence }),
+    record({
+      number: finite,
+      is_recomputed: flag,
+      is_seeking: flag,
+      progress: finite,
+      is_at_end: flag,
+      difference: sentence,
+    }),
   ),
 });
 
@@ -166,6 +173,43 @@ const previewShape = record({
   ghosts: record({ spacing_s: finite, xy_m: list(list(orNull(finite), 40_000), 200_000) }),
 });
 
+/** A velocity; what is not a number came as null. */
+const velocity: Shape<readonly [number, number]> = (value, place) => {
+  const parts = list(orNull(finite), 2)(value, place);
+  return [parts[0] ?? NaN, parts[1] ?? NaN];
+};
+
+const whyShape = record({
+  id: finite,
+  epoch: finite,
+  tick: finite,
+  time_s: finite,
+  drone: name,
+  activity: name,
+  u_max_m_s: finite,
+  u_nom_m_s: velocity,
+  u_m_s: velocity,
+  changed_m_s: orNull(finite),
+  speed_limited: flag,
+  margin_used: flag,
+  fallback: flag,
+  rows: list(
+    record({
+      kind: oneOf('drone', 'wall', 'no_fly'),
+      drone: maybe(name),
+      wall: maybe(name),
+      edge: maybe(finite),
+      distance_m: finite,
+      normal: point,
+      offset_m_s: finite,
+      slack_m_s: finite,
+      priority: name,
+      holds: flag,
+    }),
+    10_000,
+  ),
+});
+
 const kShapes = {
   hello: helloShape,
   mission: missionShape,
@@ -176,6 +220,7 @@ const kShapes = {
   ack: ackShape,
   refused: refusedShape,
   preview: previewShape,
+  why: whyShape,
   pong: record({ id: finite }),
   bye: record({ code: name, reason: sentence }),
 } as const satisfies Record<string, Shape<unknown>>;
@@ -197,6 +242,8 @@ export type Edited = Shaped<typeof editedShape>;
 export type Ack = MessageOf<'ack'>;
 export type Refused = MessageOf<'refused'>;
 export type Preview = MessageOf<'preview'>;
+export type Why = MessageOf<'why'>;
+export type WhyRow = Why['rows'][number];
 export type Outlook = Preview['as_is'];
 export type Role = Shaped<typeof role>;
 

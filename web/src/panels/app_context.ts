@@ -5,6 +5,7 @@ import type { MapView } from '../map/map_view';
 import type { Editor } from '../session/editor';
 import type { FleetOrders } from '../session/fleet_orders';
 import type { Foresight } from '../session/foresight';
+import type { Reasons } from '../session/reasons';
 import type { Session } from '../session/session';
 import type { Settings } from '../session/settings';
 
@@ -14,6 +15,7 @@ export interface App {
   readonly editor: Editor;
   readonly orders: FleetOrders;
   readonly foresight: Foresight;
+  readonly reasons: Reasons;
   readonly settings: Settings;
   /** There once the page has its first layout. */
   readonly map: Signal<MapView | null>;

@@ -14,6 +14,7 @@ import { kOrderNames, kOrders, type Order } from '../session/fleet_orders';
 import { useApp } from './app_context';
 import { HoldButton } from './hold_button';
 import { Icon, type IconName } from './icons';
+import { WhyPanel } from './why_panel';
 
 const kOrderIcons: Record<Order, IconName> = {
   take_off: 'takeOff',
@@ -113,6 +114,7 @@ export function Inspector() {
           <Gauge drone={drone} kind="command" name="allowed" />
           <Gauge drone={drone} kind="velocity" name="flown" />
         </div>
+        <WhyPanel />
         <StopOne id={id} />
       </div>
     </section>

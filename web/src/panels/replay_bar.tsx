@@ -140,7 +140,7 @@ function troubleOf(recording: Recording, replay: Replay): string {
 
 function standingOf(recording: Recording, replay: Replay | null | undefined): string {
   if (!replay) return '–';
-  if (replay.is_seeking) return 'on its way';
+  if (replay.is_seeking) return `computing … ${Math.floor(100 * replay.progress)} %`;
   if (replay.is_at_end) return 'end of the recording';
   if (!replay.is_recomputed) return 'as recorded';
   return recording.incomplete ? 'recomputed; was cut off' : 'recomputed';
