@@ -1,5 +1,6 @@
 #include "vigil/runtime/replay_loop.hpp"
 
+#include <cmath>
 #include <memory>
 #include <vector>
 
@@ -167,6 +168,31 @@ TEST_F(ReplayLoopTest, What_is_recalled_ends_with_the_tick_that_is_shown) {
   EXPECT_GE(ticks.size(), 25U);
   EXPECT_EQ(ticks.back(), shown().snapshot.tick);
   EXPECT_GE(ticks.front(), 200U);
+}
+
+TEST_F(ReplayLoopTest, What_plots_show_is_the_same_whatever_way_led_there) {
+  order(LiveCommand::Kind::kSeek, 12.0);
+  arrive();
+  const FlightHistory at_once = loop.scene().history().until(9.0);
+  order(LiveCommand::Kind::kSeek, 3.0);
+  arrive();
+  ASSERT_EQ(loop.scene().history().until(loop.scene().time_s()).rows().size(), 31U);
+  order(LiveCommand::Kind::kSeek, 9.0);
+  arrive();
+  const FlightHistory again = loop.scene().history().until(loop.scene().time_s());
+  ReplayLoop played{mission, open, 1};
+  while (played.scene().time_s() < 9.0 - 1e-9) ASSERT_TRUE(played.scene().step());
+  for (const FlightHistory* history : {&at_once, &again}) {
+    ASSERT_EQ(history->rows().size(), played.scene().history().rows().size());
+    for (std::size_t row = 0; row < history->rows().size(); ++row) {
+      EXPECT_EQ(history->rows()[row].time_s, played.scene().history().rows()[row].time_s);
+      for (std::size_t column = 0; column < history->columns(); ++column) {
+        const float value = history->rows()[row].values.at(column);
+        const float wanted = played.scene().history().rows()[row].values.at(column);
+        EXPECT_TRUE(value == wanted || (std::isnan(value) && std::isnan(wanted))) << row << " " << column;
+      }
+    }
+  }
 }
 
 TEST_F(ReplayLoopTest, Every_command_is_answered_with_the_tick_that_it_led_to) {

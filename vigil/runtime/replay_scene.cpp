@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <stdexcept>
 #include <utility>
 
@@ -33,7 +34,8 @@ ReplayScene::ReplayScene(Mission mission, const Open& open)
       flight_(open()),
       elsewhere_(open()),
       tick_elsewhere_(recording().head().parameters.drones),
-      ground_(first_) {
+      ground_(first_),
+      history_(first_.drones.size()) {
   expect_sense(recording(), first_);
   look_every_ = static_cast<std::uint64_t>(std::max(1LL, std::llround(kLookEveryS / spacing_s())));
   begin_s_ = time_of(1);
@@ -76,6 +78,19 @@ void ReplayScene::look() {
   if (flight_.number() % look_every_ == 1 % look_every_) (void)ground_.look(flight_.snapshot());
 }
 
+double ReplayScene::worst_age_s() const {
+  double worst_s = std::numeric_limits<double>::quiet_NaN();
+  for (const AreaState& area : ground_.watch().states({}, time_s())) worst_s = std::fmax(worst_s, area.age_s);
+  return worst_s;
+}
+
+/// Whatever way leads to a tick that was never shown, it leads over all ticks before.
+void ReplayScene::note_history() {
+  if (flight_.number() <= noted_) return;
+  noted_ = flight_.number();
+  if (history_.is_due(time_s())) history_.add(flight_.snapshot(), worst_age_s());
+}
+
 void ReplayScene::keep_checkpoint() {
   checkpoints_.offer(flight_.number(), [this] { return Checkpoint{ground_, targets_}; });
 }
@@ -83,6 +98,7 @@ void ReplayScene::keep_checkpoint() {
 bool ReplayScene::step() {
   if (!flight_.step()) return false;
   look();
+  note_history();
   keep_checkpoint();
   return true;
 }

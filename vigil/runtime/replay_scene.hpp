@@ -5,6 +5,7 @@
 #include <memory>
 
 #include "vigil/runtime/checkpoints.hpp"
+#include "vigil/runtime/flight_history.hpp"
 #include "vigil/runtime/ground_picture.hpp"
 #include "vigil/runtime/live_frame.hpp"
 #include "vigil/runtime/mission.hpp"
@@ -47,6 +48,8 @@ class ReplayScene {
   [[nodiscard]] std::uint64_t number_at(double time_s);
   /// Shows what was known at ticks since time_s up to the one that is shown, at most `most`, the last of them that one.
   void recall(double since_s, std::uint64_t most, const std::function<void(const swarm::Snapshot&)>& show);
+  /// What plots show, up to the latest tick that was ever shown: later than the present one after going back.
+  [[nodiscard]] const FlightHistory& history() const noexcept { return history_; }
   /// Writes all of `out` but what is the clock's.
   void write(LiveFrame& out) const;
 
@@ -59,6 +62,8 @@ class ReplayScene {
   void retarget();
   void look();
   void keep_checkpoint();
+  void note_history();
+  [[nodiscard]] double worst_age_s() const;
   [[nodiscard]] double time_of(std::uint64_t number);
 
   Mission first_;
@@ -67,6 +72,8 @@ class ReplayScene {
   std::unique_ptr<FlightRecording> elsewhere_;
   RecordedTick tick_elsewhere_;
   GroundPicture ground_;
+  FlightHistory history_;
+  std::uint64_t noted_ = 0;  ///< the last tick that history_ knows of
   std::size_t targets_ = 0;  ///< how many of the recording's lists of targets are past
   std::uint64_t look_every_ = 1;
   double begin_s_ = 0.0;

@@ -56,7 +56,7 @@ describe('a recording', () => {
   it('is scrubbed with the mouse and with keys, and shows what had happened until then', async () => {
     const page = await open();
     const box = (await moment(page).boundingBox())!;
-    await page.mouse.click(box.x + 0.9 * box.width, box.y + box.height / 2);
+    await page.mouse.click(box.x + 0.87 * box.width, box.y + box.height / 2);
     await expect.poll(() => clock(page).textContent()).toMatch(/0:2[67]/);
     await page.getByRole('button', { name: 'Event log' }).click();
     await page.getByText('cf2 lands').waitFor();

@@ -14,6 +14,7 @@
 #include "vigil/adapters/console/server_messages.hpp"
 #include "vigil/adapters/console/trail_ring.hpp"
 #include "vigil/adapters/console/why_question.hpp"
+#include "vigil/runtime/flight_history.hpp"
 #include "vigil/runtime/ground_picture.hpp"
 #include "vigil/runtime/live_mission.hpp"
 #include "vigil/runtime/mission_desk.hpp"
@@ -40,9 +41,10 @@ struct RecordingNews {
 /// What led to the tick of a recording that is shown.
 struct HistoryNews {
   ReplayState state;
-  std::vector<ConsoleEvent> events;  ///< those that came to what was told, or all
-  bool is_afresh = false;            ///< all of it: what was told before is of elsewhere
-  std::optional<TrailRing> trails;   ///< there where is_afresh
+  std::vector<ConsoleEvent> events;             ///< those that came to what was told, or all
+  bool is_afresh = false;                       ///< all of it: what was told before is of elsewhere
+  std::optional<TrailRing> trails;              ///< there where is_afresh
+  std::optional<runtime::FlightHistory> plots;  ///< up to that tick; none while it is on its way to another
 };
 /// Other targets hold from now on.
 struct TargetsNews {

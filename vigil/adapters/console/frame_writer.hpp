@@ -12,7 +12,7 @@ namespace vigil::console {
 /// Writes a binary frame of protocol/README.md: little-endian, packed, arrays from multiples of 4 bytes on.
 class FrameWriter {
  public:
-  enum class Kind : std::uint8_t { kSnapshot = 1, kDensity = 2, kCoverage = 3, kAge = 4, kTrails = 5 };
+  enum class Kind : std::uint8_t { kSnapshot = 1, kDensity = 2, kCoverage = 3, kAge = 4, kTrails = 5, kHistory = 6 };
 
   /// Precondition: header_bytes is a multiple of 4, at least 16.
   FrameWriter(Kind kind, std::uint8_t flags, std::uint16_t header_bytes, std::uint32_t epoch, std::uint32_t count);

@@ -195,4 +195,15 @@ std::string trails_frame(const Trails& trails, std::uint32_t epoch) {
   return out.take();
 }
 
+std::string history_frame(const runtime::FlightHistory& history, std::uint32_t epoch) {
+  FrameWriter out(Kind::kHistory, 0, 32, epoch, as_u32(history.rows().size()));
+  out.put(as_u32(history.plotted()));
+  out.put(as_u32(history.columns()));
+  out.put(history.spacing_s());
+  for (const runtime::FlightHistory::Row& row : history.rows()) out.put(row.time_s);
+  for (std::size_t column = 0; column < history.columns(); ++column)
+    for (const runtime::FlightHistory::Row& row : history.rows()) out.put(row.values.at(column));
+  return out.take();
+}
+
 }  // namespace vigil::console

@@ -9,6 +9,7 @@
 #include "vigil/core/ergodic/basis.hpp"
 #include "vigil/core/field/density.hpp"
 #include "vigil/core/field/seen_map.hpp"
+#include "vigil/runtime/flight_history.hpp"
 #include "vigil/runtime/live_frame.hpp"
 
 /// The binary frames of protocol/README.md, as bytes. Field frame.
@@ -53,5 +54,7 @@ struct Trails {
 };
 
 [[nodiscard]] std::string trails_frame(const Trails& trails, std::uint32_t epoch);
+
+[[nodiscard]] std::string history_frame(const runtime::FlightHistory& history, std::uint32_t epoch);
 
 }  // namespace vigil::console

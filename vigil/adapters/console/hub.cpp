@@ -154,6 +154,8 @@ void Hub::show_everything(Client& client) {
   say(status());
   client.line->show(ClientLine::Latest::kTrails,
                     std::make_shared<const std::string>(trails_frame(trails_->trails(), flight_->epoch())));
+  client.line->show(ClientLine::Latest::kHistory,
+                    std::make_shared<const std::string>(history_frame(*history_, flight_->epoch())));
   if (density_) client.line->show(ClientLine::Latest::kDensity, density_);
   if (coverage_) client.line->show(ClientLine::Latest::kCoverage, coverage_);
   if (age_) client.line->show(ClientLine::Latest::kAge, age_);

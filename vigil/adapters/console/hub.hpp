@@ -26,7 +26,17 @@ namespace vigil::console {
 class ClientLine {
  public:
   /// Kinds of bytes of which only the newest counts.
-  enum class Latest : std::uint8_t { kSnapshot, kDensity, kPreview, kCoverage, kAge, kTrails, kStatus, kCount };
+  enum class Latest : std::uint8_t {
+    kSnapshot,
+    kDensity,
+    kPreview,
+    kCoverage,
+    kAge,
+    kTrails,
+    kHistory,
+    kStatus,
+    kCount
+  };
 
   virtual ~ClientLine() = default;
   /// Never dropped, in order.
@@ -190,6 +200,7 @@ class Hub {
   SharedBytes age_;
   std::vector<runtime::AreaState> areas_;
   std::optional<TrailRing> trails_;
+  std::optional<runtime::FlightHistory> history_;
   std::optional<runtime::LiveFrame> frame_;
   std::size_t frame_version_ = 0;
   runtime::ClockState clock_;

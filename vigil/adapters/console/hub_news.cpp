@@ -92,6 +92,7 @@ void Hub::show_flight(std::shared_ptr<runtime::ShownFlight> flight, SharedBytes 
   frame_version_ = 0;
   clock_version_ = 0;
   trails_.emplace(flight_->mission().drones.size());
+  history_.emplace(flight_->mission().drones.size());
   drone_index_.clear();
   for (std::size_t i = 0; i < flight_->mission().drones.size(); ++i) drone_index_.emplace(drone_id(i), i);
   has_told_lost_ticks_ = false;
@@ -108,6 +109,7 @@ void Hub::take(const RecordingNews& news) {
 
 void Hub::take(const HistoryNews& news) {
   replay_ = news.state;
+  if (news.plots) history_ = news.plots;
   if (news.state.is_seeking) next_status_ = {};
   if (!news.is_afresh) {
     for (const ConsoleEvent& event : news.events) keep_event(event_json(event));
@@ -120,6 +122,7 @@ void Hub::take(const HistoryNews& news) {
   say_to_all(events_afresh_json({events_.begin(), events_.end()}));
   if (news.trails) trails_ = news.trails;
   show_to_all(ClientLine::Latest::kTrails, shared(trails_frame(trails_->trails(), flight_->epoch())));
+  show_to_all(ClientLine::Latest::kHistory, shared(history_frame(*history_, flight_->epoch())));
   next_status_ = {};
 }
 
@@ -360,11 +363,13 @@ void Hub::send_snapshot(std::chrono::nanoseconds now) {
   next_snapshot_ = now + kSnapshotEvery;
   const bool is_new = flight_->read(*frame_, frame_version_);
   if (!frame_->has_ticked) return;
-  if (is_new) trails_->add(frame_->snapshot);
   // A recording does not grow older.
   const std::chrono::nanoseconds age = flight_->is_recording() ? 0ns : now - frame_->computed_at;
   double worst_age_s = std::numeric_limits<double>::quiet_NaN();
   for (const runtime::AreaState& area : areas_) worst_age_s = std::fmax(worst_age_s, area.age_s);
+  if (is_new) trails_->add(frame_->snapshot);
+  // A recording's thread knows of the ticks between two frames, too, and tells of them.
+  if (is_new && !flight_->is_recording()) history_->add(frame_->snapshot, worst_age_s);
   const runtime::QueuedRecorder* recorder = flight_->recorder();
   const SnapshotContext context{
       .epoch = flight_->epoch(),

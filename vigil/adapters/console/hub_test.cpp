@@ -39,7 +39,8 @@ TEST(HubTest, Who_says_hello_is_told_everything_in_the_protocols_order) {
   EXPECT_EQ(hello.at("role"), "safety_pilot");
   EXPECT_EQ(hello.at("login"), false);
   console.pass(50ms);
-  for (const Latest kind : {Latest::kSnapshot, Latest::kDensity, Latest::kCoverage, Latest::kAge, Latest::kTrails})
+  for (const Latest kind :
+       {Latest::kSnapshot, Latest::kDensity, Latest::kCoverage, Latest::kAge, Latest::kTrails, Latest::kHistory})
     EXPECT_TRUE(ana.line->shown[kind]) << static_cast<int>(kind);
   EXPECT_FALSE(ana.line->shown[Latest::kPreview]);
 }

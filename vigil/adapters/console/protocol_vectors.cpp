@@ -195,8 +195,30 @@ Json other_frames() {
                                   {"xy", {0.5, 1.5, 0.625, 1.5, "NaN", "NaN", 2.5, 0.25}}})});
 }
 
+/// Both drones at first, then the second one on the ground.
+Json history_case() {
+  runtime::FlightHistory history(2);
+  swarm::Snapshot snapshot = flying().snapshot;
+  snapshot.drones[1] = snapshot.drones[0];
+  snapshot.drones[1].position = {0.5, 1.0};
+  for (const double time_s : {23.0, 23.5}) {
+    snapshot.time_s = time_s;
+    history.add(snapshot, time_s - 20.0);
+    snapshot.drones[1].mode = swarm::VehicleMode::kGrounded;
+  }
+  return frame_case(
+      "two drones, two moments", "history", history_frame(history, 3),
+      {{"epoch", 3},
+       {"rows", 2},
+       {"plotted", 2},
+       {"columns", 8},
+       {"spacing_s", 0.1},
+       {"times_s", {23.0, 23.5}},
+       {"series", {12.5, 12.5, 3.0, 3.5, 0.5, "NaN", 1.0, 1.0, 0.25, 0.25, 0.25, 0.25, 0.25, 0.25, 0.5, "NaN"}}});
+}
+
 Json frames() {
-  Json cases = Json::array({snapshot_case()});
+  Json cases = Json::array({snapshot_case(), history_case()});
   for (const Json& one : density_cases()) cases.push_back(one);
   for (const Json& one : other_frames()) cases.push_back(one);
   return cases;

@@ -98,7 +98,11 @@ TrailRing ReplayDesk::trails() {
 /// After a jump all of it, otherwise what came to it.
 void ReplayDesk::tell_history() {
   const runtime::ReplayScene& scene = recording_->scene();
-  HistoryNews news{.state = state(), .events = {}, .is_afresh = is_arriving_, .trails = {}};
+  HistoryNews news{.state = state(),
+                   .events = {},
+                   .is_afresh = is_arriving_,
+                   .trails = {},
+                   .plots = scene.history().until(scene.time_s())};
   const auto all = scene.recording().events();
   const std::size_t until = events_until(scene);
   const std::size_t from =
@@ -113,7 +117,7 @@ void ReplayDesk::tell_history() {
 
 /// On its way to where it was sent: how far it has come.
 void ReplayDesk::tell_progress() {
-  tell_(HistoryNews{.state = state(), .events = {}, .is_afresh = false, .trails = {}});
+  tell_(HistoryNews{.state = state(), .events = {}, .is_afresh = false, .trails = {}, .plots = {}});
 }
 
 bool ReplayDesk::ask(const WhyQuestion& question) {

@@ -118,6 +118,19 @@ TEST_F(ReplayDeskTest, After_a_jump_trails_are_told_of_anew_and_while_it_plays_t
   for (const HistoryNews& news : told<HistoryNews>()) EXPECT_FALSE(news.trails.has_value());
 }
 
+TEST_F(ReplayDeskTest, What_plots_show_is_told_up_to_the_moment_that_is_shown) {
+  for (const double time_s : {30.0, 10.0, 20.0}) {
+    order(Kind::kSeek, time_s);
+    arrive();
+    const std::vector<HistoryNews> told_of = told<HistoryNews>();
+    ASSERT_TRUE(told_of.back().plots.has_value());
+    const auto rows = told_of.back().plots->rows();
+    EXPECT_EQ(rows.size(), static_cast<std::size_t>(10.0 * time_s) + 1);
+    EXPECT_EQ(rows.front().begin_s, 0.0);
+    EXPECT_NEAR(rows.back().time_s, time_s, 1e-9);
+  }
+}
+
 TEST_F(ReplayDeskTest, A_question_is_answered_of_the_tick_that_is_shown) {
   order(Kind::kSeek, 1.5);
   arrive();

@@ -7,7 +7,7 @@ export class FrameError extends Error {}
 
 /** More than this many drones, cells or rows is no frame of ours. */
 const kMost = 16_000_000;
-const kHeaderBytes = [0, 96, 48, 40, 40, 32] as const;
+const kHeaderBytes = [0, 96, 48, 40, 40, 32, 32] as const;
 
 export interface Snapshot {
   readonly kind: 'snapshot';
@@ -107,7 +107,21 @@ export interface Trails {
   readonly position: Float32Array;
 }
 
-export type Frame = Snapshot | Density | Coverage | AgeMap | Trails;
+/** What plots show, from the flight's beginning until now. */
+export interface History {
+  readonly kind: 'history';
+  readonly epoch: number;
+  readonly n: number;
+  /** Drones that have columns of their own. */
+  readonly plotted: number;
+  readonly columns: number;
+  readonly spacingS: number;
+  readonly time: Float64Array;
+  /** Column by column; NaN: there was none. */
+  readonly values: Float32Array;
+}
+
+export type Frame = Snapshot | Density | Coverage | AgeMap | Trails | History;
 
 /** The frame, or null for a kind that a later version added. Throws FrameError. */
 export function decodeFrame(bytes: ArrayBuffer): Frame | null {
@@ -176,6 +190,7 @@ const kDecoders: Record<number, (reader: ArrayReader) => Frame> = {
   3: decodeCoverage,
   4: decodeAge,
   5: decodeTrails,
+  6: decodeHistory,
 };
 
 function decodeSnapshot(r: ArrayReader): Snapshot {
@@ -297,5 +312,26 @@ function decodeTrails(r: ArrayReader): Trails {
     spacingS: r.finite(20, 'spacing_s'),
     timeS: r.f64(24),
     position: r.take(Float32Array, 2 * r.n * points),
+  };
+}
+
+function decodeHistory(r: ArrayReader): History {
+  const [plotted, columns] = [r.u32(16), r.u32(20)];
+  const wanted = 5 + plotted + (plotted * Math.max(0, plotted - 1)) / 2;
+  if (columns !== wanted) throw new FrameError(`${columns} columns of ${plotted} drones; ${wanted} expected`);
+  if (columns * r.n > kMost) throw new FrameError(`${columns} columns of ${r.n} rows; at most ${kMost} values`);
+  const spacingS = r.f64(24);
+  if (!(spacingS > 0 && spacingS < Infinity)) throw new FrameError(`spacing_s is ${spacingS}`);
+  const time = r.take(Float64Array, r.n);
+  if (!time.every(Number.isFinite)) throw new FrameError('a row without a time');
+  return {
+    kind: 'history',
+    epoch: r.epoch,
+    n: r.n,
+    plotted,
+    columns,
+    spacingS,
+    time,
+    values: r.take(Float32Array, r.n * columns),
   };
 }

@@ -29,6 +29,9 @@ const kNames: Record<string, string> = {
   age_ds: 'cells',
   c_k: 'coefficients',
   xy: 'position',
+  rows: 'n',
+  times_s: 'time',
+  series: 'values',
 };
 
 const ours = (name: string): string =>
@@ -54,7 +57,7 @@ describe('protocol vectors', () => {
 
   it('There is one of each kind of frame', () => {
     expect(new Set(frames.map((frame) => frame.kind))).toEqual(
-      new Set(['snapshot', 'density', 'coverage', 'age', 'trails']),
+      new Set(['snapshot', 'density', 'coverage', 'age', 'trails', 'history']),
     );
   });
 

@@ -1,6 +1,7 @@
 import { useEffect, useRef } from 'preact/hooks';
 import uPlot from 'uplot';
 import 'uplot/dist/uPlot.min.css';
+import { clock } from '../model/units';
 import { useApp } from './app_context';
 
 export interface PlotSeries {
@@ -22,6 +23,8 @@ interface Props {
   /** The vertical axis reaches at least to this. */
   readonly atLeast?: number;
   readonly description: string;
+  /** The first and the last moment that is shown. */
+  readonly range: readonly [number, number] | null;
 }
 
 const cssColour = (name: string): string =>
@@ -55,7 +58,7 @@ export function Plot(props: Props) {
       class="plot"
       style={{ margin: 0 }}
       role="img"
-      aria-label={`${props.title}: ${props.now}. ${props.description}`}
+      aria-label={`${props.title}: ${props.now}${fromTo(props.range)}. ${props.description}`}
     >
       <h3 aria-hidden="true">
         <span>{props.title}</span>
@@ -65,6 +68,8 @@ export function Plot(props: Props) {
     </figure>
   );
 }
+
+const fromTo = (range: Props['range']): string => (range ? `, from ${clock(range[0])} to ${clock(range[1])}` : '');
 
 const sizeOf = (element: HTMLElement): { width: number; height: number } => ({
   width: Math.max(80, element.clientWidth),

@@ -5,6 +5,7 @@ import { clock } from '../model/units';
 import { Scrubbing } from '../session/scrubbing';
 import { useApp } from './app_context';
 import { Icon } from './icons';
+import { PlotSpan } from './plots';
 import { SpeedChoice } from './speed_choice';
 
 const kSpeeds = [0.1, 0.25, 0.5, 1, 2, 5, 10, 20, 50, 100];
@@ -19,6 +20,7 @@ export function ReplayBar() {
       <Deck />
       <Scrubber recording={recording} />
       <Standing recording={recording} />
+      <PlotSpan />
       <button type="button" class="quiet" onClick={() => (isLogOpen.value = !isLogOpen.value)}>
         <Icon name="log" />
         Events

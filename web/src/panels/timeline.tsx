@@ -2,6 +2,7 @@ import type { SwarmEvent } from '../link/messages';
 import { clock } from '../model/units';
 import { useApp } from './app_context';
 import { Icon } from './icons';
+import { PlotSpan } from './plots';
 import { ProgramHealth } from './program_health';
 
 const kWindowS = 120;
@@ -41,6 +42,7 @@ export function Timeline() {
         ))}
       </div>
       <ProgramHealth />
+      <PlotSpan />
       <button type="button" class="quiet" onClick={() => (isLogOpen.value = !isLogOpen.value)}>
         <Icon name="log" />
         Events

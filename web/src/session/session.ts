@@ -294,6 +294,7 @@ export class Session {
     else if (frame.kind === 'coverage') this.coverage = frame;
     else if (frame.kind === 'age') this.ageMap = frame;
     else if (frame.kind === 'trails') this.trails = frame;
+    else if (frame.kind === 'history') this.series.fill(frame, this.droneIds.value.length);
     else if (!frame.isPreview) this.density = frame;
     else if (this.isStaged.value) this.ghost = frame;
   }

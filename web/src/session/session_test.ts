@@ -81,7 +81,7 @@ describe('session', () => {
     socket.say({ type: 'events', afresh: true, events: [event(1, 'alarm', 'a')] });
     expect(session.events.value.map((one) => one.number)).toEqual([1]);
     expect(session.notices.value).toEqual([]);
-    expect(session.series.swarm.length).toBe(0);
+    expect(session.series.ofSwarm(0, 'whole')[0].length).toBe(0);
     socket.say({ type: 'events', events: [event(2, 'warning', 'b')] });
     expect(session.notices.value).toHaveLength(1);
   });

@@ -1,5 +1,6 @@
 import { effect, signal, type Signal } from '@preact/signals';
 import { readKeyMap, type KeyMap } from '../model/keyboard';
+import type { Span } from './series';
 
 /** What this browser remembers of how its person likes things. Never a token. */
 
@@ -51,6 +52,7 @@ function readLayers(text: string | null): ReadonlySet<Layer> {
 }
 
 export class Settings {
+  readonly plotSpan = kept<Span>('plot-span', (text) => (text === 'recent' ? 'recent' : 'whole'), String);
   readonly theme = kept<Theme>('theme', (text) => (text === 'light' ? 'light' : 'dark'), String);
   readonly isMuted = kept<boolean>(
     'muted',
