@@ -40,7 +40,7 @@ class Console(unittest.TestCase):
         self.addCleanup(client.close)
         client.send({"type": "hello", "name": "Ana"})
         kinds, frames = [], set()
-        while len(frames) < 5:
+        while len(frames) < 6:
             message = client.wait_for(lambda _: True)
             if message["type"] == "frame":
                 frames.add(message["bytes"][4])
@@ -48,7 +48,7 @@ class Console(unittest.TestCase):
                 kinds.append(message["type"])
         self.assertEqual(kinds[:3], ["hello", "mission", "targets"])
         self.assertLessEqual({"events", "presence"}, set(kinds))
-        self.assertEqual(frames, {1, 2, 3, 4, 5})
+        self.assertEqual(frames, {1, 2, 3, 4, 5, 6})
 
     def test_the_flight_goes_on_by_itself(self):
         client = self.client()
