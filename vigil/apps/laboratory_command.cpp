@@ -4,6 +4,7 @@
 #include <chrono>
 #include <cmath>
 #include <cstdio>
+#include <numeric>
 #include <optional>
 #include <thread>
 
@@ -12,6 +13,7 @@
 
 #include "vigil/adapters/ros/laboratory_link.hpp"
 #include "vigil/adapters/ros/session.hpp"
+#include "vigil/adapters/ros/stand_in_commander.hpp"
 #include "vigil/apps/failure.hpp"
 #include "vigil/apps/fleet_choice.hpp"
 #include "vigil/apps/interrupt.hpp"
@@ -27,7 +29,6 @@ namespace vigil::apps {
 namespace {
 
 using ros_bridge::StandInCrazyswarm;
-using swarm::Action;
 using swarm::VehicleMode;
 using Clock = std::chrono::steady_clock;
 
@@ -39,6 +40,8 @@ std::vector<std::string> ids_of(const runtime::Mission& mission) {
   return ids;
 }
 
+bool is_in_the_air(const ros_bridge::StandInCommander& drone) { return drone.height_m() > 0.0; }
+
 /// The simulated drones, obeying what comes over ROS.
 class Flight {
  public:
@@ -48,7 +51,7 @@ class Flight {
         wire_(ids_of(mission)),
         audit_(runtime::audit_limits(mission), mission.drones.size()),
         snapshot_(mission.drones.size()),
-        wanted_(mission.drones.size(), Action::kNone),
+        commanders_(mission.drones.size(), ros_bridge::StandInCommander(mission.simulation.vehicle.altitude_m)),
         orders_(mission.drones.size()) {}
 
   void step() {
@@ -71,6 +74,9 @@ class Flight {
             {"min_separation_m", metres(totals.least.airborne_pair_m)},
             {"min_wall_distance_m", metres(totals.least.wall_m)},
             {"max_speed_m_s", totals.max_speed_m_s},
+            {"in_the_air", std::ranges::count_if(commanders_, is_in_the_air)},
+            {"falls", sum(&ros_bridge::StandInCommander::falls)},
+            {"starts_by_setpoints", sum(&ros_bridge::StandInCommander::starts_by_setpoints)},
             {"setpoints", setpoints_},
             {"longest_pause_s", longest_pause_s_},
             {"longest_silence_s", longest_silence_s_}};
@@ -78,35 +84,29 @@ class Flight {
 
  private:
   void obey(std::size_t i, const StandInCrazyswarm::Told& told) {
-    const VehicleMode mode = fleet_->truth()[i].mode;
-    if (told.take_off) wanted_[i] = Action::kTakeOff;
-    if (told.land) wanted_[i] = Action::kLand;
-    if (told.stop_motors) wanted_[i] = Action::kStopMotors;
-    if (has_come_true(wanted_[i], mode)) wanted_[i] = Action::kNone;
+    const runtime::TruthSample& truth = fleet_->truth()[i];
     swarm::DroneOrder& order = orders_[i];
-    order = {wanted_[i], Vec2::Zero()};
-    if (wanted_[i] == Action::kNone && mode == VehicleMode::kFlying) {
-      order.action = Action::kVelocity;
-      if (told.has_setpoint) order.velocity = world_.vector_to_field({told.velocity_m_s.x, told.velocity_m_s.y});
-    }
+    order = commanders_[i].step(told, truth.mode, truth.height_m, 1.0 / kRateHz);
+    order.velocity = world_.vector_to_field(order.velocity);
     snapshot_.drones[i].order = order;
-    snapshot_.drones[i].mode = mode;
-    snapshot_.drones[i].activity = mode == VehicleMode::kFlying ? swarm::Activity::kActive : swarm::Activity::kGrounded;
+    snapshot_.drones[i].mode = truth.mode;
+    snapshot_.drones[i].activity =
+        truth.mode == VehicleMode::kFlying ? swarm::Activity::kActive : swarm::Activity::kGrounded;
     setpoints_ = std::max(setpoints_, told.setpoints);
     longest_pause_s_ = std::max(longest_pause_s_, told.longest_pause_s);
     longest_silence_s_ = std::max(longest_silence_s_, told.longest_silence_s);
   }
 
-  static bool has_come_true(Action wanted, VehicleMode mode) {
-    const bool is_down = mode == VehicleMode::kGrounded;
-    return wanted == Action::kTakeOff ? mode == VehicleMode::kFlying : is_down;
+  [[nodiscard]] int sum(int (ros_bridge::StandInCommander::*count)() const) const {
+    return std::accumulate(commanders_.begin(), commanders_.end(), 0,
+                           [&](int so_far, const auto& one) { return so_far + (one.*count)(); });
   }
 
   void show() {
     std::vector<ros_bridge::Point> places;
-    for (const runtime::TruthSample& truth : fleet_->truth()) {
-      const Vec2 place = world_.point_to_world(truth.position);
-      places.push_back({place.x(), place.y(), truth.height_m});
+    for (std::size_t i = 0; i < commanders_.size(); ++i) {
+      const Vec2 place = world_.point_to_world(fleet_->truth()[i].position);
+      places.push_back({place.x(), place.y(), commanders_[i].height_m()});
     }
     wire_.show(places);
   }
@@ -116,7 +116,7 @@ class Flight {
   StandInCrazyswarm wire_;
   runtime::FlightAudit audit_;
   swarm::Snapshot snapshot_;
-  std::vector<Action> wanted_;
+  std::vector<ros_bridge::StandInCommander> commanders_;
   std::vector<swarm::DroneOrder> orders_;
   std::uint64_t setpoints_ = 0;
   double longest_pause_s_ = 0.0;

@@ -10,8 +10,8 @@ import urllib.error
 
 from console_client import WebSocket
 from ros_graph import (
-    HOME, PROGRAM, are, command, console, distance_m, drones, end_everything, fault, judge, run_tests, service, start,
-    start_roscore, state, stop, until,
+    HOME, PROGRAM, RUNNING, are, command, console, distance_m, drones, end_everything, fault, judge, publish, run_tests,
+    service, start, start_roscore, state, stop, until,
 )  # fmt: skip
 
 ROOM = """
@@ -92,7 +92,7 @@ class TenDrones(unittest.TestCase):
         mission = HOME / "ten.yaml"
         mission.write_text(TEN_DRONES)
         start_roscore()
-        start("laboratory", PROGRAM, "laboratory", mission)
+        start("laboratory", PROGRAM, "laboratory", mission, "--out", HOME / "ten.json")
         start("vigil", PROGRAM, "serve", mission, "--fleet", "ros", "--ros-tf", "--port", "0")
         cls.ids = [f"cf{number}" for number in range(1, 11)]
         until(lambda: are("grounded", *cls.ids), 30, "ten drones on the ground")
@@ -124,6 +124,27 @@ class TenDrones(unittest.TestCase):
         with self.assertRaises(urllib.error.HTTPError) as refused:
             command("load_mission", yaml=TWO_DRONES)
         self.assertIn("in the air", refused.exception.read().decode())
+
+    def test_services_that_hang_delay_nobody_else_and_setpoints_bring_their_drone_down(self):
+        publish("/laboratory/fault", "std_msgs/String", "data: hang cf1")
+        command("land", drones=["cf1", "cf2", "cf3"])
+        until(lambda: are("grounded", "cf2", "cf3"), 4, "two drones whose services answer")
+        until(lambda: are("grounded", "cf1"), 5, "the drone whose services hang")
+        self.assertTrue(are("active", *self.ids[3:9]), drones())
+
+    def test_without_a_master_the_program_lands_all_before_it_ends(self):
+        stop("roscore", signal.SIGKILL)
+        self.assertTrue(are("active", *self.ids[3:9]), drones())
+        process = RUNNING["vigil"]
+        stop("vigil")
+        self.assertEqual(process.returncode, 0)
+        self.assertIn("lands all drones", (HOME / "vigil.log").read_text())
+        stop("laboratory")
+        judgement = json.loads((HOME / "ten.json").read_text())
+        print(judgement, file=sys.stderr)
+        for count in ("in_the_air", "falls", "starts_by_setpoints"):
+            self.assertEqual(judgement[count], 0, judgement)
+        self.assertLess(judgement["longest_silence_s"], 0.5, judgement)
 
 
 def send_to(x_m):

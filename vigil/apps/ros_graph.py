@@ -214,3 +214,6 @@ def judge(test, judgement):
     # half a second without a setpoint.
     test.assertLess(judgement["longest_pause_s"], 0.25, judgement)
     test.assertLess(judgement["longest_silence_s"], 0.5, judgement)
+    # A Crazyflie without setpoints stops its motors; one on the ground is started by them.
+    test.assertEqual(judgement["falls"], 0, judgement)
+    test.assertEqual(judgement["starts_by_setpoints"], 0, judgement)

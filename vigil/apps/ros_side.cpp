@@ -1,6 +1,7 @@
 #include "vigil/apps/ros_side.hpp"
 
 #include <algorithm>
+#include <cstdio>
 #include <utility>
 #include <vector>
 
@@ -125,6 +126,8 @@ void RosSide::wish(swarm::CommandKind kind, const std::string& drone, Answer ans
 }
 
 void RosSide::warn(const std::string& text) {
+  fmt::print("vigil: {}\n", text);
+  std::fflush(stdout);
   const std::lock_guard lock(mutex_);
   if (server_ != nullptr) server_->warn(text);
 }

@@ -28,7 +28,7 @@ class RosSide {
   /// From now on wishes are taken, until the server's run() is over; then release().
   void attach(console::Server& server);
   void release();
-  /// Something that operators should know of. Any thread.
+  /// Something that operators should know of: in the console, and on the program's output. Any thread.
   void warn(const std::string& text);
 
  private:

@@ -1,6 +1,5 @@
 #include "vigil/apps/serve_command.hpp"
 
-#include <algorithm>
 #include <chrono>
 #include <cstdio>
 #include <memory>
@@ -14,6 +13,7 @@
 #include "vigil/adapters/recording/bag_recorder.hpp"
 #include "vigil/apps/failure.hpp"
 #include "vigil/apps/fleet_choice.hpp"
+#include "vigil/apps/flown_drones.hpp"
 #include "vigil/apps/interrupt.hpp"
 #include "vigil/apps/mission_choice.hpp"
 #include "vigil/apps/results_folder.hpp"
@@ -89,11 +89,20 @@ std::shared_ptr<runtime::LiveMission> make_flight(const runtime::Mission& missio
 }
 
 /// A new mission's fleet knows nothing of drones that the old one's flies: they would be nobody's.
-void refuse_in_flight(const runtime::LiveMission& old) {
-  runtime::LiveFrame frame(old.mission().drones.size());
-  std::size_t version = 0;
-  if (!old.read(frame, version) || std::ranges::none_of(frame.snapshot.drones, runtime::is_airborne)) return;
-  throw Failure(kBadInput, "drones of Crazyswarm are in the air; land them before another mission is loaded");
+void refuse_in_flight(const FlownDrones& flown) {
+  if (flown.are_in_the_air())
+    throw Failure(kBadInput, "drones of Crazyswarm are in the air; land them before another mission is loaded");
+}
+
+/// Of simulated drones nothing is left to land.
+bool may_end(FlownDrones& flown, const ServeOptions& options) {
+  if (!is_interrupted() || options.fleet != "ros") return is_interrupted();
+  return flown.are_down([] {
+    fmt::print(
+        "vigil: lands all drones, and ends once they are seen on the ground; a second Ctrl-C ends it at once, and "
+        "what is in the air then levels after half a second and falls after two\n");
+    std::fflush(stdout);
+  });
 }
 
 /// What an earlier run left of the same mission; nothing where it left nothing.
@@ -144,21 +153,21 @@ int run(const ServeOptions& options, const std::string& version) {
   if (ros) served.overhear = [&ros](const console::DeskNews& news) { ros->overhear(news); };
   std::string url;
   served.ready = [&] { announce(options, mission.name, url, saved.has_value()); };
-  std::weak_ptr<runtime::LiveMission> newest;
+  FlownDrones flown;
   console::Server server(
       served,
-      [&options, &ros, &newest](const runtime::Mission& one, std::uint32_t epoch, const runtime::SavedFlight* of) {
+      [&options, &ros, &flown](const runtime::Mission& one, std::uint32_t epoch, const runtime::SavedFlight* of) {
         if (ros) check_ros_names(one);
-        if (const auto old = newest.lock(); old && options.fleet == "ros") refuse_in_flight(*old);
+        if (options.fleet == "ros") refuse_in_flight(flown);
         auto flight = make_flight(one, options, epoch, of, ros ? &*ros : nullptr);
-        newest = flight;
+        flown.watch(flight);
         return flight;
       },
       store);
   url = server.url();
   catch_interrupts();
   if (ros) ros->attach(server);
-  server.run(mission, saved ? &*saved : nullptr, is_interrupted);
+  server.run(mission, saved ? &*saved : nullptr, [&] { return may_end(flown, options); });
   if (ros) ros->release();
   return kDone;
 }

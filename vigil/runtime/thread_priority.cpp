@@ -7,16 +7,25 @@
 
 namespace vigil::runtime {
 
-bool take_real_time_priority() noexcept {
-  sched_param priority{};
-  priority.sched_priority = sched_get_priority_min(SCHED_FIFO);
-  return pthread_setschedparam(pthread_self(), SCHED_FIFO, &priority) == 0;
+namespace {
+
+bool take(int priority) noexcept {
+  sched_param parameter{};
+  parameter.sched_priority = priority;
+  return pthread_setschedparam(pthread_self(), SCHED_FIFO, &parameter) == 0;
 }
 
-void start_with_real_time_priority(const std::function<void()>& start) {
+}  // namespace
+
+bool take_real_time_priority(Urgency urgency) noexcept {
+  const int least = sched_get_priority_min(SCHED_FIFO);
+  return (urgency == Urgency::kBeforeOthers && take(least + 1)) || take(least);
+}
+
+void start_with_real_time_priority(const std::function<void()>& start, Urgency urgency) {
   std::exception_ptr thrown;
   std::thread([&] {
-    (void)take_real_time_priority();
+    (void)take_real_time_priority(urgency);
     try {
       start();
     } catch (...) {

@@ -4,6 +4,7 @@
 #include <chrono>
 #include <condition_variable>
 #include <deque>
+#include <memory>
 #include <mutex>
 #include <optional>
 #include <thread>
@@ -16,6 +17,7 @@
 #include <tf2_msgs/TFMessage.h>
 
 #include "vigil/adapters/ros/crazyswarm_messages.hpp"
+#include "vigil/adapters/ros/drone_services.hpp"
 #include "vigil/adapters/ros/ros_name.hpp"
 #include "vigil/runtime/thread_priority.hpp"
 
@@ -69,7 +71,11 @@ class CrazyswarmLink final : public CrazyswarmPort {
         connected_(setup.drones.size()),
         stops_left_(setup.drones.size()) {
     node_.setCallbackQueue(&queue_);
-    for (const std::string& id : setup_.drones) {
+    for (std::size_t i = 0; i < setup_.drones.size(); ++i) {
+      const std::string& id = setup_.drones[i];
+      services_.push_back(
+          std::make_unique<DroneServices>(ServicesSetup{id, setup_.altitude_m, setup_.take_off_s, setup_.landing_s,
+                                                        [this, i] { return connected_[i].load(); }, setup_.tell}));
       velocities_.push_back(node_.advertise<crazyswarm::VelocityWorld>(ros_name(id) + "/cmd_velocity_world", 1));
       stops_.push_back(node_.advertise<std_msgs::Empty>(ros_name(id) + "/cmd_stop", 1));
     }
@@ -85,6 +91,8 @@ class CrazyswarmLink final : public CrazyswarmPort {
     wake_caller_.notify_one();
     streamer_.join();
     caller_.join();
+    for (const std::unique_ptr<DroneServices>& services : services_) services->stop();
+    services_.clear();
     spinner_.stop();
     queue_.disable();
   }
@@ -109,20 +117,21 @@ class CrazyswarmLink final : public CrazyswarmPort {
   }
 
   [[nodiscard]] bool call(std::size_t drone, VehicleCall call) noexcept override {
-    if (call != VehicleCall::kEmergency) return queue({drone, call, drone});
+    if (call != VehicleCall::kEmergency) return services_[drone]->ask(call);
     stops_left_[drone] = kStops;  // the streamer sends them, behind nobody's service
     return true;
   }
 
+  [[nodiscard]] Answer answer(std::size_t drone) noexcept override { return services_[drone]->answer(); }
+
   [[nodiscard]] bool tell_mistaken(std::size_t drone, std::size_t other) noexcept override {
-    return queue({drone, std::nullopt, other});
+    return queue({drone, other});
   }
 
  private:
-  /// For the caller's thread, which may wait.
+  /// Operators are told for whom a drone is taken: on a thread that may wait.
   struct Errand {
     std::size_t drone = 0;
-    std::optional<VehicleCall> call;  ///< otherwise operators are told for whom the drone is taken
     std::size_t mistaken_for = 0;
   };
 
@@ -185,7 +194,7 @@ class CrazyswarmLink final : public CrazyswarmPort {
     message.header.stamp = ros::Time::now();
     for (std::size_t i = 0; i < setpoints.size(); ++i) {
       connected_[i] = velocities_[i].getNumSubscribers() > 0;
-      if (stops(i, setpoints[i].is_streamed) || !setpoints[i].is_streamed) continue;
+      if (stops(i, setpoints[i].is_streamed) || !setpoints[i].is_streamed || services_[i]->holds_setpoints()) continue;
       const Point velocity = stand ? setpoints[i].velocity_m_s : Point{};
       message.vel.x = velocity.x;
       message.vel.y = velocity.y;
@@ -205,60 +214,25 @@ class CrazyswarmLink final : public CrazyswarmPort {
 
   void run_errands() {
     while (!is_over_) {
-      std::unique_lock<std::mutex> lock(errands_mutex_);
-      wake_caller_.wait_for(lock, 100ms, [this] { return !errands_.empty() || is_over_; });
-      if (errands_.empty() || is_over_) continue;
-      const Errand errand = errands_.front();
-      errands_.pop_front();
-      lock.unlock();
-      run(errand);
+      if (const std::optional<Errand> errand = next_errand()) run(*errand);
+      for (const std::unique_ptr<DroneServices>& services : services_) services->give_up_late_calls();
     }
+  }
+
+  std::optional<Errand> next_errand() {
+    std::unique_lock<std::mutex> lock(errands_mutex_);
+    wake_caller_.wait_for(lock, 100ms, [this] { return !errands_.empty() || is_over_; });
+    if (errands_.empty()) return std::nullopt;
+    const Errand errand = errands_.front();
+    errands_.pop_front();
+    return errand;
   }
 
   void run(const Errand& errand) {
     const std::string& id = setup_.drones[errand.drone];
-    if (errand.call) return make(id, *errand.call);
     setup_.tell(id + " and " + setup_.drones[errand.mistaken_for] +
                 ": the tracker takes one for the other; who was mistaken hovers until it is seen in its own place, and "
                 "lands after five seconds");
-  }
-
-  void make(const std::string& id, VehicleCall call) {
-    switch (call) {
-      case VehicleCall::kTakeOff:
-        ask(id, "takeoff", height_request<crazyswarm::TakeoffRequest>(setup_.altitude_m, setup_.take_off_s));
-        return;
-      case VehicleCall::kLand: {
-        crazyswarm::NotifySetpointsStopRequest let_go;
-        let_go.remainValidMillisecs = 100;
-        ask(id, "notify_setpoints_stop", let_go);
-        ask(id, "land", height_request<crazyswarm::LandRequest>(0.0, setup_.landing_s));
-        return;
-      }
-      case VehicleCall::kEmergency:
-        return;  // the streamer's
-    }
-  }
-
-  template <typename Request>
-  static Request height_request(double height_m, double duration_s) {
-    Request request;
-    request.height = static_cast<float>(height_m);
-    request.duration = ros::Duration(duration_s);
-    return request;
-  }
-
-  template <typename Request>
-  void ask(const std::string& id, const std::string& service, const Request& request) {
-    using Response = crazyswarm::EmptyResponse<Request>;
-    Response response;
-    ros::ServiceClient client = node_.serviceClient<Request, Response>("/" + ros_name(id) + "/" + service);
-    report(id, service, client.call(request, response));
-  }
-
-  void report(const std::string& id, const std::string& service, bool is_done) const {
-    if (!is_done)
-      setup_.tell(id + ": Crazyswarm does not answer to " + service + "; it is asked again while it matters");
   }
 
   CrazyswarmSetup setup_;
@@ -279,6 +253,7 @@ class CrazyswarmLink final : public CrazyswarmPort {
   bool is_new_ = false;
   std::vector<std::atomic<bool>> connected_;
   std::vector<std::atomic<int>> stops_left_;
+  std::vector<std::unique_ptr<DroneServices>> services_;
   std::thread streamer_;
 
   std::mutex errands_mutex_;

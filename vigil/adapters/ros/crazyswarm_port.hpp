@@ -29,6 +29,9 @@ struct Setpoint {
 
 enum class VehicleCall : std::uint8_t { kTakeOff, kLand, kEmergency };
 
+/// What has become of the last service that was asked for.
+enum class Answer : std::uint8_t { kWaiting, kYes, kNo };
+
 /// Drones behind vicon_bridge (or tf) and Crazyswarm, as the control thread meets them: nothing here waits.
 class CrazyswarmPort {
  public:
@@ -44,8 +47,11 @@ class CrazyswarmPort {
   /// called for kStandsForS it becomes a hover.
   virtual void set(std::size_t drone, const Setpoint& setpoint) noexcept = 0;
   virtual void flush() noexcept = 0;
-  /// Asks for a service of the drone; false where it could not be asked now.
+  /// Asks for a service of the drone; false where it could not be asked now. The drone's setpoints go on until a
+  /// landing is answered by kYes; none is sent from then on until the next call, whatever is set.
   [[nodiscard]] virtual bool call(std::size_t drone, VehicleCall call) noexcept = 0;
+  /// Of its last take-off or landing.
+  [[nodiscard]] virtual Answer answer(std::size_t drone) noexcept = 0;
 
   /// Tells operators that the tracker takes one of two drones for the other; false where it could not be passed on now.
   [[nodiscard]] virtual bool tell_mistaken(std::size_t drone, std::size_t other) noexcept = 0;

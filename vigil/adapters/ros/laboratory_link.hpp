@@ -11,7 +11,8 @@
 /// a Session.
 namespace vigil::ros_bridge {
 
-/// The node that flies the drones, in place of Crazyswarm. One thread, but for the wire's own.
+/// The node that flies the drones, in place of Crazyswarm. As /laboratory/fault says `hang DRONE`, that drone's
+/// services do not answer until it says something else. One thread, but for the wire's own.
 class StandInCrazyswarm {
  public:
   explicit StandInCrazyswarm(const std::vector<std::string>& drones);
@@ -19,16 +20,18 @@ class StandInCrazyswarm {
   StandInCrazyswarm(const StandInCrazyswarm&) = delete;
   StandInCrazyswarm& operator=(const StandInCrazyswarm&) = delete;
 
-  /// What a drone has been told: services once, setpoints for as long as they are newer than half a second.
+  /// What a drone has been told. Services once; `takeoff` and `land` only where it does not follow setpoints, which
+  /// come first until notify_setpoints_stop lets go of them, or cmd_stop.
   struct Told {
     bool take_off = false;
     bool land = false;
     bool stop_motors = false;
-    bool has_setpoint = false;
-    Point velocity_m_s;
+    bool follows_setpoints = false;
+    Point velocity_m_s;              ///< of the newest setpoint,
+    double silence_s = 0.0;          ///< which came so long ago
     std::uint64_t setpoints = 0;     ///< how many ever came
-    double longest_pause_s = 0.0;    ///< between the sending of two of a stream, by their stamps
-    double longest_silence_s = 0.0;  ///< between the coming of two of a stream
+    double longest_pause_s = 0.0;    ///< between the sending of two that follow each other, by their stamps
+    double longest_silence_s = 0.0;  ///< for so long none came while it followed them
   };
   [[nodiscard]] Told take(std::size_t drone);
 

@@ -97,20 +97,25 @@ void RosFleet::order(runtime::MissionTime /*now*/, std::span<const swarm::DroneO
 
 void RosFleet::order(std::size_t index, double now_s, const swarm::DroneOrder& order) noexcept {
   Drone& drone = drones_[index];
+  drone.phase.answered(port_->answer(index), now_s);
   const std::optional<VehicleCall> call = drone.phase.call_for(order.action, drone.gate.age_s(now_s), now_s);
   if (call && port_->call(index, *call)) drone.phase.called(*call, now_s);
   port_->set(index, setpoint(index, now_s, order));
 }
 
-/// A drone that flies always has one: what is ordered, or a hover.
+/// A drone that flies always has one: what is ordered, or a hover, or straight down.
 Setpoint RosFleet::setpoint(std::size_t index, double now_s, const swarm::DroneOrder& order) const noexcept {
   const Drone& drone = drones_[index];
-  if (drone.phase.mode() != VehicleMode::kFlying) return {};
+  if (!drone.phase.is_streamed()) return {};
   Setpoint setpoint{true, {}};
+  if (drone.phase.descends()) {
+    setpoint.velocity_m_s.z = -FlightPhase::kDescentPerS;
+    return setpoint;
+  }
   if (drone.gate.age_s(now_s) > kFreshS || mistaken_.taken_for(index)) return setpoint;
   setpoint.velocity_m_s.z =
       std::clamp(kHeightGainPerS * (altitude_m_ - drone.gate.place().z), -kClimbLimit, kClimbLimit);
-  if (order.action != swarm::Action::kVelocity) return setpoint;
+  if (order.action != swarm::Action::kVelocity || drone.phase.mode() != VehicleMode::kFlying) return setpoint;
   const Vec2 velocity = world_.vector_to_world(order.velocity);
   setpoint.velocity_m_s.x = velocity.x();
   setpoint.velocity_m_s.y = velocity.y();

@@ -210,6 +210,66 @@ TEST_F(RosFleetTest, A_landing_is_asked_for_until_the_drone_is_on_the_ground) {
   EXPECT_EQ(seen_[0].mode, VehicleMode::kGrounded);
 }
 
+TEST_F(RosFleetTest, Setpoints_go_on_until_Crazyswarm_has_answered_to_a_landing) {
+  fly();
+  wire_->answers = Answer::kWaiting;
+  ticks(0.9, Action::kLand);
+  EXPECT_EQ(count(VehicleCall::kLand), 1);
+  EXPECT_EQ(seen_[0].mode, VehicleMode::kLanding);
+  EXPECT_TRUE(setpoint().is_streamed);
+  EXPECT_GE(setpoint().velocity_m_s.z, -1e-3);
+  wire_->answers = Answer::kYes;
+  ticks(0.1, Action::kLand);
+  EXPECT_FALSE(setpoint().is_streamed);
+}
+
+TEST_F(RosFleetTest, A_landing_that_nobody_answers_goes_on_by_setpoints_and_the_motors_are_stopped_on_the_ground) {
+  for (const Answer answer : {Answer::kWaiting, Answer::kNo}) {
+    fly();
+    wire_->answers = answer;
+    ticks(1.2, Action::kLand);
+    for (; place_.z > 0.0; place_.z -= 0.25 * kTick) {
+      tick(Action::kLand);
+      ASSERT_TRUE(setpoint().is_streamed);
+      EXPECT_EQ(setpoint().velocity_m_s.z, -0.25);
+      EXPECT_EQ(setpoint().velocity_m_s.x, 0.0);
+      EXPECT_EQ(count(VehicleCall::kEmergency), 0);
+    }
+    place_.z = 0.0;
+    ticks(0.5, Action::kLand);
+    EXPECT_EQ(seen_[0].mode, VehicleMode::kGrounded);
+    EXPECT_FALSE(setpoint().is_streamed);
+    EXPECT_EQ(count(VehicleCall::kEmergency), 1);
+    wire_->answers = Answer::kYes;
+    ticks(5.0, Action::kNone);
+    EXPECT_EQ(count(VehicleCall::kEmergency), 1);
+  }
+}
+
+TEST_F(RosFleetTest, Motors_of_a_drone_that_nobody_sees_are_stopped_once_setpoints_must_have_brought_it_down) {
+  fly();
+  wire_->answers = Answer::kNo;
+  ticks(5.5, Action::kVelocity, {0.2, 0.0}, false);
+  EXPECT_EQ(setpoint().velocity_m_s.z, -0.25);
+  ticks(0.5 / 0.25, Action::kVelocity, {0.2, 0.0}, false);
+  EXPECT_TRUE(setpoint().is_streamed);
+  EXPECT_EQ(count(VehicleCall::kEmergency), 0);
+  ticks(2.5, Action::kVelocity, {0.2, 0.0}, false);
+  EXPECT_EQ(count(VehicleCall::kEmergency), 1);
+  EXPECT_FALSE(setpoint().is_streamed);
+}
+
+TEST_F(RosFleetTest, A_drone_that_Crazyswarm_lands_gets_no_setpoint_however_often_it_is_asked_for_again) {
+  fly();
+  ticks(1.0, Action::kLand);
+  wire_->answers = Answer::kNo;
+  for (double t = 0.0; t < 10.0; t += kTick) {
+    tick(Action::kLand, Vec2::Zero(), false);
+    ASSERT_FALSE(setpoint().is_streamed);
+  }
+  EXPECT_GE(count(VehicleCall::kLand), 2);
+}
+
 TEST_F(RosFleetTest, Motors_are_told_to_stop_until_the_drone_is_down) {
   fly();
   ticks(1.2, Action::kStopMotors);

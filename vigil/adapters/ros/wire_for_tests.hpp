@@ -21,6 +21,7 @@ class Wire final : public CrazyswarmPort {
     calls.emplace_back(drone, call);
     return true;
   }
+  [[nodiscard]] Answer answer(std::size_t /*drone*/) noexcept override { return answers; }
 
   [[nodiscard]] bool tell_mistaken(std::size_t drone, std::size_t other) noexcept override {
     told.emplace_back(drone, other);
@@ -34,6 +35,7 @@ class Wire final : public CrazyswarmPort {
 
   double time_s = 100.0;
   bool connected = true;
+  Answer answers = Answer::kYes;  ///< to every call
   int flushes = 0;
   std::vector<Sighting> sightings;
   std::vector<Setpoint> setpoints;
