@@ -3,6 +3,7 @@
 #include <arpa/inet.h>
 #include <array>
 #include <cerrno>
+#include <cstring>
 #include <netinet/in.h>
 #include <netinet/tcp.h>
 #include <stdexcept>
@@ -54,11 +55,14 @@ WireFrame frame_in(std::string_view bytes) {
 
 LiveClient::LiveClient(std::uint16_t port, const std::string& name) : descriptor_(connect_to(port)) {
   upgrade(port);
-  say(fmt::format(R"({{"type":"hello","name":"{}"}})", name));
+  say(fmt::format(R"({{"type":"hello","name":"{}","confirms":true}})", name));
 }
 
 LiveClient::LiveClient(LiveClient&& other) noexcept
-    : descriptor_(std::exchange(other.descriptor_, -1)), received_(std::move(other.received_)) {}
+    : descriptor_(std::exchange(other.descriptor_, -1)),
+      received_(std::move(other.received_)),
+      messages_(other.messages_),
+      begun_(std::move(other.begun_)) {}
 
 LiveClient::~LiveClient() {
   if (descriptor_ >= 0) ::close(descriptor_);
@@ -118,14 +122,40 @@ void LiveClient::read(const Take& take) {
 }
 
 /// How many bytes the first frame takes; 0 where it is not all there.
-std::size_t LiveClient::take_one(std::string_view bytes, const Take& take) const {
+std::size_t LiveClient::take_one(std::string_view bytes, const Take& take) {
   const WireFrame frame = frame_in(bytes);
   if (frame.header == 0 || bytes.size() - frame.header < frame.size) return 0;
   const std::string_view payload = bytes.substr(frame.header, frame.size);
   if (frame.opcode == kClose) throw std::runtime_error("the server said goodbye");
   if (frame.opcode == kPing) send_frame(kPong, payload);
-  if (frame.opcode == 1 || frame.opcode == 2) take(payload, frame.opcode == kText);
+  if (frame.opcode == 1 || frame.opcode == 2) take_message(payload, frame.opcode == kText, take);
   return frame.header + frame.size;
+}
+
+void LiveClient::take_message(std::string_view message, bool is_text, const Take& take) {
+  constexpr char kPart = 7;  // a kind of frame of protocol/README.md
+  if (!is_text && message.size() > 4 && message[4] == kPart)
+    take_part(message, take);
+  else
+    take(message, is_text);
+  say(fmt::format(R"({{"type":"confirm","received":{}}})", ++messages_));
+}
+
+/// Parts of a stream come one after the other, the first at offset 0.
+void LiveClient::take_part(std::string_view part, const Take& take) {
+  constexpr std::size_t kHeader = 24;
+  const auto u32 = [part](std::size_t offset) {
+    std::uint32_t value = 0;
+    std::memcpy(&value, part.data() + offset, sizeof value);
+    return value;
+  };
+  if (part.size() < kHeader) throw std::runtime_error("a part is too short");
+  std::string& begun = begun_[byte_at(part, 5)];
+  if (u32(16) == 0) begun.clear();
+  begun += part.substr(kHeader);
+  if (begun.size() < u32(20)) return;
+  const std::string whole = std::exchange(begun, {});
+  take(whole, !whole.starts_with("VGL1"));
 }
 
 }  // namespace vigil::bench

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <functional>
@@ -8,7 +9,8 @@
 
 namespace vigil::bench {
 
-/// A WebSocket of the console's protocol to a server on 127.0.0.1, for one thread that reads many by turns.
+/// A WebSocket of the console's protocol to a server on 127.0.0.1, for one thread that reads many by turns. It confirms
+/// what it reads, as the page does.
 class LiveClient {
  public:
   /// A message that came whole: JSON where `is_text`, a binary frame otherwise. Valid during the call.
@@ -36,10 +38,14 @@ class LiveClient {
   void send_frame(unsigned opcode, std::string_view payload) const;
   void upgrade(std::uint16_t port);
   bool receive(int flags);
-  std::size_t take_one(std::string_view bytes, const Take& take) const;
+  std::size_t take_one(std::string_view bytes, const Take& take);
+  void take_message(std::string_view message, bool is_text, const Take& take);
+  void take_part(std::string_view part, const Take& take);
 
   int descriptor_;
   std::string received_;
+  std::uint64_t messages_ = 0;
+  std::array<std::string, 256> begun_;  ///< of each stream, what came of a message in parts
 };
 
 }  // namespace vigil::bench

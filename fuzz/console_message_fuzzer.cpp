@@ -51,7 +51,9 @@ void say(std::string_view text) {
     return;
   }
   const auto& message = std::get<console::ClientMessage>(parsed);
-  require(message.id.has_value() != std::holds_alternative<console::Hello>(message.body));
+  const bool has_no_id =
+      std::holds_alternative<console::Hello>(message.body) || std::holds_alternative<console::Confirm>(message.body);
+  require(message.id.has_value() != has_no_id);
   if (const auto* edit = std::get_if<console::Edit>(&message.body)) change(edit->edits);
 }
 

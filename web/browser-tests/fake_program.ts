@@ -45,6 +45,8 @@ export class FakeProgram {
     this.received.push(message);
     if (this.isMute) return;
     if (message['type'] === 'hello') this.greet();
+    else if (message['type'] === 'confirm') return;
+    else if (message['type'] === 'ping') this.say({ type: 'pong', id: message['id'], steady_ms: performance.now() });
     else this.say({ type: 'ack', id: message['id'], tick: this.tick, pending: false, revision: 1 });
   }
 
@@ -178,6 +180,7 @@ export class FakeProgram {
       role: 'safety_pilot',
       roles: ['viewer', 'operator', 'safety_pilot'],
       login: false,
+      steady_ms: performance.now(),
     });
     this.say({
       type: 'mission',

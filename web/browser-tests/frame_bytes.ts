@@ -56,7 +56,7 @@ export function snapshotBytes(
   holding: readonly Holding[] = [],
 ): Buffer {
   const n = drones.length;
-  const header = headerOf(1, 4, 96, n);
+  const header = headerOf(1, 4, 104, n);
   header.writeDoubleLE(figures.tick, 16);
   header.writeDoubleLE(figures.timeS, 24);
   header.writeDoubleLE(Date.now(), 32);
@@ -72,6 +72,7 @@ export function snapshotBytes(
   header.writeUInt32LE(1, 76);
   header.writeFloatLE(kVelocityScale, 84);
   header.writeUInt32LE(holding.length, 88);
+  header.writeDoubleLE(performance.now(), 96);
   const velocity = Int16Array.from(drones.flatMap((drone) => [drone.vx / kVelocityScale, drone.vy / kVelocityScale]));
   const rows = new DataView(new ArrayBuffer(16 * holding.length));
   holding.forEach(([drone, kind, index, distance], i) => {

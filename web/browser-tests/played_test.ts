@@ -72,7 +72,8 @@ describe('a console whose program is played', () => {
       .toBeGreaterThan(youngAge + 0.5);
     expect(await page.getByTestId('mission-clock').textContent()).toBe(clock);
     expect(await page.getByTestId('badge').textContent()).toBe('STALE');
-    expect(await page.getByRole('button', { name: 'LAND ALL' }).isDisabled()).toBe(true);
+    expect(await page.getByRole('button', { name: 'LAND ALL' }).isDisabled()).toBe(false);
+    expect(await page.getByRole('button', { name: 'Take off' }).isDisabled()).toBe(true);
     expect(await page.getByRole('radio', { name: 'Area' }).isDisabled()).toBe(true);
     expect(await page.getByTestId('disconnected').textContent()).toMatch(/each vehicle hovers and then lands/);
     expect(await page.locator('.map-field').evaluate((map) => getComputedStyle(map).filter)).toMatch(/grayscale/);

@@ -53,7 +53,7 @@ std::string name_in(const JsonReader& reader) {
 
 Hello hello_in(const JsonReader& reader) {
   constexpr std::size_t kMostTokenBytes = 512;
-  reader.allow_only({"type", "name", "token", "role"});
+  reader.allow_only({"type", "name", "token", "role", "confirms"});
   Hello hello;
   if (reader.has("name")) hello.name = name_in(reader);
   if (reader.has("token")) hello.token = reader.text("token", kMostTokenBytes);
@@ -61,7 +61,13 @@ Hello hello_in(const JsonReader& reader) {
     hello.role = role_of(reader.text("role", kMostIdBytes));
     if (!hello.role) reader.refuse("role", fmt::format("must be one of: {}", fmt::join(kRoleWords, ", ")));
   }
+  if (reader.has("confirms")) hello.confirms = reader.flag("confirms");
   return hello;
+}
+
+Confirm confirm_in(const JsonReader& reader) {
+  reader.allow_only({"type", "received"});
+  return {reader.whole("received")};
 }
 
 DroneWish wish_in(const JsonReader& reader, std::string_view type, CommandKind kind) {
@@ -152,6 +158,7 @@ std::optional<MessageBody> body_in(const JsonReader& reader, std::string_view ty
   for (const WishWord& wish : kWishes)
     if (wish.word == type) return wish_in(reader, type, wish.kind);
   if (type == "hello") return hello_in(reader);
+  if (type == "confirm") return confirm_in(reader);
   if (type == "ping") return nothing_in<Ping>(reader);
   if (type == "preview_density") return draft_in<PreviewDensity>(reader);
   if (type == "preview") return preview_in(reader);
@@ -174,6 +181,10 @@ std::optional<MessageBody> body_in(const JsonReader& reader, std::string_view ty
   return std::nullopt;
 }
 
+bool has_no_id(const MessageBody& body) {
+  return std::holds_alternative<Hello>(body) || std::holds_alternative<Confirm>(body);
+}
+
 /// The id, where the message has one that can be read, for the refusal of all else.
 std::optional<std::uint64_t> id_in(const nlohmann::json& message) {
   try {
@@ -192,7 +203,7 @@ std::variant<ClientMessage, MessageRefusal> message_in(const nlohmann::json& mes
     if (!body)
       return MessageRefusal{id, "unknown_type",
                             fmt::format("type: \"{}\" is not known to {}", runtime::on_one_line(type, 60), "vigil.v1")};
-    if (std::holds_alternative<Hello>(*body)) return ClientMessage{{}, std::move(type), *std::move(body)};
+    if (has_no_id(*body)) return ClientMessage{{}, std::move(type), *std::move(body)};
     return ClientMessage{reader.whole("id"), std::move(type), *std::move(body)};
   } catch (const JsonFault& fault) {
     return MessageRefusal{id, "malformed", runtime::on_one_line(fault.what(), kMostReasonBytes)};
@@ -222,7 +233,7 @@ std::variant<ClientMessage, MessageRefusal> parse_preview(std::string_view text)
 Role role_for(const MessageBody& body) {
   if (const auto* wish = std::get_if<DroneWish>(&body))
     return wish->kind == CommandKind::kEmergencyStop ? Role::kSafetyPilot : Role::kOperator;
-  const bool only_looks = std::holds_alternative<Hello>(body) || std::holds_alternative<Ping>(body) ||
+  const bool only_looks = has_no_id(body) || std::holds_alternative<Ping>(body) ||
                           std::holds_alternative<PreviewDensity>(body) || std::holds_alternative<Preview>(body) ||
                           std::holds_alternative<Why>(body);
   return only_looks ? Role::kViewer : Role::kOperator;

@@ -24,6 +24,11 @@ struct Hello {
   std::string name;
   std::string token;
   std::optional<Role> role;
+  bool confirms = false;
+};
+/// How many messages have come to the client since its connection began; not answered.
+struct Confirm {
+  std::uint64_t received = 0;
 };
 struct Ping {};
 struct PreviewDensity {
@@ -74,11 +79,11 @@ struct LoadMission {
   std::string yaml;
 };
 
-using MessageBody = std::variant<Hello, Ping, PreviewDensity, Preview, Why, Editing, DroneWish, Edit, Undo, Redo,
-                                 StartAfresh, SetSpeed, Pause, ResumeClock, Seek, StepTicks, LoadMission>;
+using MessageBody = std::variant<Hello, Confirm, Ping, PreviewDensity, Preview, Why, Editing, DroneWish, Edit, Undo,
+                                 Redo, StartAfresh, SetSpeed, Pause, ResumeClock, Seek, StepTicks, LoadMission>;
 
 struct ClientMessage {
-  std::optional<std::uint64_t> id;  ///< always there but for Hello
+  std::optional<std::uint64_t> id;  ///< always there but for Hello and Confirm
   std::string type;
   MessageBody body;
 };

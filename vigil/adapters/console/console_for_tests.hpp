@@ -30,6 +30,13 @@ class RecordedLine final : public ClientLine {
     shown[kind] = std::move(bytes);
   }
   void close() override { is_closed = true; }
+  void pace() override { is_paced = true; }
+  /// As if everything that was said and shown had been sent.
+  [[nodiscard]] bool confirm(std::uint64_t count) override {
+    if (!is_paced || count <= confirmed) return false;
+    confirmed = count;
+    return true;
+  }
 
   /// What was said of one type, oldest first.
   [[nodiscard]] std::vector<Json> of(std::string_view type) const {
@@ -64,6 +71,8 @@ class RecordedLine final : public ClientLine {
   std::map<Latest, SharedBytes> shown;
   std::map<Latest, int> shows;
   bool is_closed = false;
+  bool is_paced = false;
+  std::uint64_t confirmed = 0;
 
  private:
   static bool is_answer(const Json& message) {

@@ -113,7 +113,7 @@ std::string snapshot_frame(const runtime::LiveFrame& frame, const runtime::Clock
   const unsigned flags = (clock.is_paused ? 1U : 0U) | (snapshot.fallback ? 2U : 0U) | (snapshot.has_metric ? 4U : 0U);
   const std::size_t rows = holding_rows(frame);
   const double pair_m = runtime::least_airborne_pair_m(snapshot);
-  constexpr std::uint16_t kHeader = 96;
+  constexpr std::uint16_t kHeader = 104;
   FrameWriter out(Kind::kSnapshot, static_cast<std::uint8_t>(flags), kHeader, context.epoch,
                   as_u32(snapshot.drones.size()));
   out.reserve(kHeader + 40 * snapshot.drones.size() + 16 * rows + 64);
@@ -135,6 +135,7 @@ std::string snapshot_frame(const runtime::LiveFrame& frame, const runtime::Clock
   out.put(as_f32(scale));
   out.put(as_u32(rows));
   out.put(context.lost_ticks);
+  out.put(context.steady_ms);
   put_snapshot_arrays(out, frame, scale);
   put_holding(out, frame);
   return out.take();
@@ -203,6 +204,16 @@ std::string history_frame(const runtime::FlightHistory& history, std::uint32_t e
   for (const runtime::FlightHistory::Row& row : history.rows()) out.put(row.time_s);
   for (std::size_t column = 0; column < history.columns(); ++column)
     for (const runtime::FlightHistory::Row& row : history.rows()) out.put(row.values.at(column));
+  return out.take();
+}
+
+std::string part_frame(std::string_view whole, const Part& part) {
+  constexpr std::uint16_t kHeader = 24;
+  FrameWriter out(Kind::kPart, part.stream, kHeader, 0, as_u32(part.size));
+  out.reserve(kHeader + part.size);
+  out.put(as_u32(part.offset));
+  out.put(as_u32(whole.size()));
+  out.put_bytes(whole.substr(part.offset, part.size));
   return out.take();
 }
 

@@ -1,9 +1,11 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "vigil/core/ergodic/basis.hpp"
@@ -22,6 +24,7 @@ struct SnapshotContext {
   double age_s = 0.0;            ///< how long ago that was
   double worst_age_s = 0.0;      ///< NaN: no area
   double speed_limit_m_s = 0.0;  ///< u_max: velocities are sent to 1/8000 of it, up to four times of it
+  double steady_ms = 0.0;        ///< when what it shows was true, by the program's steady clock
   std::uint32_t lost_ticks = 0;
 };
 
@@ -52,6 +55,15 @@ struct Trails {
   double newest_s = 0.0;
   std::vector<float> xy;  ///< drone by drone, oldest first; NaN: not known
 };
+
+/// Some of the bytes of a message that goes in several. Precondition: they are there.
+struct Part {
+  std::uint8_t stream = 0;  ///< messages of one stream come one after the other
+  std::size_t offset = 0;
+  std::size_t size = 0;
+};
+
+[[nodiscard]] std::string part_frame(std::string_view whole, const Part& part);
 
 [[nodiscard]] std::string trails_frame(const Trails& trails, std::uint32_t epoch);
 

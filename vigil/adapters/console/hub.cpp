@@ -20,6 +20,8 @@ constexpr double kMessagesASecond = 50.0;
 constexpr double kMessagesAtOnce = 200.0;
 /// A client that was refused so often for its rate means no good.
 constexpr std::size_t kMostRefusedForRate = 2000;
+/// No confirmation is longer.
+constexpr std::size_t kMostConfirmBytes = 128;
 /// Commands of all clients that wait for an answer.
 constexpr std::size_t kMostWaiting = 4096;
 
@@ -97,8 +99,26 @@ void Hub::receive(ClientId id, std::string_view text) {
   const auto found = clients_.find(id);
   if (found == clients_.end()) return;
   Client& client = found->second;
-  if (!client.rate.admit(links_.now())) return refuse_message(id, "too_fast", "wait a moment: 50 messages a second");
+  const auto is_admitted = [&] { return client.rate.admit(links_.now()); };
+  // A confirmation that is one costs nothing of what a client may say: there are no more of them than messages were
+  // sent.
+  const bool may_confirm = text.size() <= kMostConfirmBytes;
+  constexpr std::string_view kTooFast = "wait a moment: 50 messages a second";
+  if (!may_confirm && !is_admitted()) return refuse_message(id, "too_fast", kTooFast);
   std::variant<ClientMessage, MessageRefusal> parsed = parse_client_message(text);
+  if (may_confirm && confirms(client, parsed)) return;
+  if (may_confirm && !is_admitted()) return refuse_message(id, "too_fast", kTooFast);
+  hear(client, std::move(parsed));
+}
+
+bool Hub::confirms(const Client& client, const std::variant<ClientMessage, MessageRefusal>& parsed) {
+  const auto* message = std::get_if<ClientMessage>(&parsed);
+  const auto* confirm = message == nullptr ? nullptr : std::get_if<Confirm>(&message->body);
+  return confirm != nullptr && client.has_said_hello && client.line->confirm(confirm->received);
+}
+
+void Hub::hear(Client& client, std::variant<ClientMessage, MessageRefusal> parsed) {
+  const ClientId id = client.who.client;
   if (const auto* refusal = std::get_if<MessageRefusal>(&parsed)) {
     if (!client.has_said_hello) return part_with(id, "no_hello", "the first message must be hello: " + refusal->reason);
     client.line->say(std::make_shared<const std::string>(in_text(refused_json(*refusal))));
@@ -107,6 +127,9 @@ void Hub::receive(ClientId id, std::string_view text) {
   const auto& message = std::get<ClientMessage>(parsed);
   if (const auto* hello = std::get_if<Hello>(&message.body)) return greet(client, *hello);
   if (!client.has_said_hello) return part_with(id, "no_hello", "the first message must be hello");
+  if (std::holds_alternative<Confirm>(message.body))
+    return refuse_message(id, "invalid",
+                          "received: must grow, up to the messages that were sent, after a hello with confirms");
   const std::weak_ptr<ClientLine> line = client.line;
   execute(message, {id, client.who.role, client.who.name}, [line](const Json& answer) {
     if (const auto still_there = line.lock()) still_there->say(std::make_shared<const std::string>(in_text(answer)));
@@ -138,15 +161,18 @@ void Hub::greet(Client& client, const Hello& hello) {
   client.has_said_hello = true;
   client.who.role = wished;
   client.who.name = name_or(hello.name, client.who.client);
+  if (hello.confirms) client.line->pace();
   show_everything(client);
   tell_presence();
 }
+
+double Hub::steady_ms() const { return std::chrono::duration<double, std::milli>(links_.now()).count(); }
 
 void Hub::show_everything(Client& client) {
   const auto say = [&client](const Json& json) {
     client.line->say(std::make_shared<const std::string>(in_text(json)));
   };
-  say(hello_json(client.who, setup_.program, wants_login()));
+  say(hello_json(client.who, setup_.program, wants_login(), steady_ms()));
   if (mission_message_) client.line->say(mission_message_);
   if (targets_message_) client.line->say(targets_message_);
   if (!events_.empty()) say(events_json({events_.begin(), events_.end()}));
@@ -188,7 +214,7 @@ void Hub::execute(const ClientMessage& message, const Author& author, Reply repl
   const Role least = console::role_for(message.body);
   if (author.role < least)
     return reply(refused_json({id, "not_allowed", fmt::format("{} needs the role {}", message.type, name_of(least))}));
-  if (std::holds_alternative<Ping>(message.body)) return reply(pong_json(id, links_.wall_ms()));
+  if (std::holds_alternative<Ping>(message.body)) return reply(pong_json(id, links_.wall_ms(), steady_ms()));
   if (const auto* editing = std::get_if<Editing>(&message.body)) {
     set_editing(author.client, *editing);
     return reply(ack_json(id, {frame_ ? frame_->snapshot.tick : 0, false, {}, {}}));

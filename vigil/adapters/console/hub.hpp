@@ -45,6 +45,11 @@ class ClientLine {
   virtual void show(Latest kind, SharedBytes bytes) = 0;
   /// After what was said.
   virtual void close() = 0;
+  /// From now on the client confirms what it has read, and no more is sent than it keeps up with. Before anything is
+  /// said.
+  virtual void pace() = 0;
+  /// The client has read so many messages. False where that cannot be.
+  [[nodiscard]] virtual bool confirm(std::uint64_t received) = 0;
 };
 
 /// What the hub needs of the rest of the program.
@@ -134,6 +139,9 @@ class Hub {
     std::string name;
   };
 
+  /// Whether it is a confirmation that can be.
+  static bool confirms(const Client& client, const std::variant<ClientMessage, MessageRefusal>& parsed);
+  void hear(Client& client, std::variant<ClientMessage, MessageRefusal> parsed);
   void greet(Client& client, const Hello& hello);
   void show_everything(Client& client);
   void part_with(ClientId id, std::string_view code, std::string_view reason);
@@ -180,6 +188,8 @@ class Hub {
   void show_to_all(ClientLine::Latest kind, const SharedBytes& bytes);
   [[nodiscard]] std::string drone_id(std::size_t index) const;
   [[nodiscard]] Json status() const;
+  /// The program's steady clock, as the protocol tells it.
+  [[nodiscard]] double steady_ms() const;
 
   HubSetup setup_;
   HubLinks links_;

@@ -363,8 +363,9 @@ void Hub::send_snapshot(std::chrono::nanoseconds now) {
   next_snapshot_ = now + kSnapshotEvery;
   const bool is_new = flight_->read(*frame_, frame_version_);
   if (!frame_->has_ticked) return;
-  // A recording does not grow older.
-  const std::chrono::nanoseconds age = flight_->is_recording() ? 0ns : now - frame_->computed_at;
+  // A recording does not grow older, nor does a world that stands still.
+  const bool stands = flight_->is_recording() || clock_.is_paused;
+  const std::chrono::nanoseconds age = stands ? 0ns : now - frame_->computed_at;
   double worst_age_s = std::numeric_limits<double>::quiet_NaN();
   for (const runtime::AreaState& area : areas_) worst_age_s = std::fmax(worst_age_s, area.age_s);
   if (is_new) trails_->add(frame_->snapshot);
@@ -377,6 +378,7 @@ void Hub::send_snapshot(std::chrono::nanoseconds now) {
       .age_s = std::chrono::duration<double>(age).count(),
       .worst_age_s = worst_age_s,
       .speed_limit_m_s = flight_->mission().control.speed_limit_m_s,
+      .steady_ms = steady_ms() - milliseconds(age),
       .lost_ticks = recorder == nullptr ? 0 : static_cast<std::uint32_t>(recorder->lost_ticks())};
   show_to_all(ClientLine::Latest::kSnapshot, shared(snapshot_frame(*frame_, clock_, context)));
 }

@@ -389,6 +389,8 @@ class DeafLine final : public ClientLine {
   void say(SharedBytes text) override { is_given_up = is_given_up || !outbound.say(std::move(text)); }
   void show(Latest kind, SharedBytes bytes) override { outbound.show(kind, std::move(bytes)); }
   void close() override {}
+  void pace() override { outbound.pace(); }
+  [[nodiscard]] bool confirm(std::uint64_t received) override { return outbound.confirm(received, 0s); }
 
   Outbound outbound;
   bool is_given_up = false;
@@ -405,7 +407,7 @@ TEST(HubTest, Who_does_not_read_holds_up_nobody_and_waits_for_one_frame_of_each_
   EXPECT_GE(ana.line->shows[Latest::kSnapshot], 29 * 20);
   EXPECT_FALSE(deaf->is_given_up);
   int frames = 0;
-  while (const auto message = deaf->outbound.next()) frames += message->is_text ? 0 : 1;
+  while (const auto message = deaf->outbound.next(0s)) frames += message->is_text ? 0 : 1;
   EXPECT_LE(frames, static_cast<int>(Latest::kCount));
 }
 

@@ -56,6 +56,12 @@ double JsonReader::number(std::string_view member) const {
   return value.get<double>();
 }
 
+bool JsonReader::flag(std::string_view member) const {
+  const nlohmann::json& value = at(member);
+  if (!value.is_boolean()) refuse(member, "must be true or false");
+  return value.get<bool>();
+}
+
 std::uint64_t JsonReader::whole(std::string_view member) const {
   const nlohmann::json& value = at(member);
   const bool is_whole = value.is_number_unsigned() && value.get<std::uint64_t>() <= kLargestWhole;

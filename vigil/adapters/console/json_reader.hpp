@@ -33,6 +33,7 @@ class JsonReader {
 
   [[nodiscard]] std::string text(std::string_view member, std::size_t most_bytes) const;
   [[nodiscard]] double number(std::string_view member) const;
+  [[nodiscard]] bool flag(std::string_view member) const;
   /// 0 to 2^53 - 1.
   [[nodiscard]] std::uint64_t whole(std::string_view member) const;
   [[nodiscard]] Vec2 point(std::string_view member) const;

@@ -9,6 +9,7 @@
 namespace vigil::console {
 namespace {
 
+using namespace std::chrono_literals;
 using Latest = ClientLine::Latest;
 
 SharedBytes bytes(std::string text) { return std::make_shared<const std::string>(std::move(text)); }
@@ -18,12 +19,12 @@ TEST(OutboundTest, What_is_said_comes_whole_and_in_order_before_any_frame) {
   outbound.show(Latest::kSnapshot, bytes("s1"));
   ASSERT_TRUE(outbound.say(bytes("a")));
   ASSERT_TRUE(outbound.say(bytes("b")));
-  EXPECT_EQ(*outbound.next()->bytes, "a");
-  EXPECT_EQ(*outbound.next()->bytes, "b");
-  const auto frame = outbound.next();
+  EXPECT_EQ(*outbound.next(0s)->bytes, "a");
+  EXPECT_EQ(*outbound.next(0s)->bytes, "b");
+  const auto frame = outbound.next(0s);
   EXPECT_EQ(*frame->bytes, "s1");
   EXPECT_FALSE(frame->is_text);
-  EXPECT_FALSE(outbound.next());
+  EXPECT_FALSE(outbound.next(0s));
   EXPECT_TRUE(outbound.is_empty());
 }
 
@@ -32,7 +33,7 @@ TEST(OutboundTest, Of_each_kind_only_the_newest_waits) {
   for (int n = 0; n < 1000; ++n) outbound.show(Latest::kSnapshot, bytes("s" + std::to_string(n)));
   outbound.show(Latest::kAge, bytes("age"));
   std::vector<std::string> sent;
-  while (const auto message = outbound.next()) sent.push_back(*message->bytes);
+  while (const auto message = outbound.next(0s)) sent.push_back(*message->bytes);
   EXPECT_EQ(sent.size(), 2U);
   EXPECT_NE(std::find(sent.begin(), sent.end(), "s999"), sent.end());
 }
@@ -43,7 +44,7 @@ TEST(OutboundTest, A_frame_that_is_always_new_does_not_keep_the_others_waiting) 
   std::size_t snapshots_before_trails = 0;
   while (true) {
     outbound.show(Latest::kSnapshot, bytes("s"));
-    if (*outbound.next()->bytes == "trails") break;
+    if (*outbound.next(0s)->bytes == "trails") break;
     ASSERT_LT(++snapshots_before_trails, 2U);
   }
 }
@@ -53,7 +54,7 @@ TEST(OutboundTest, Who_lets_too_much_lie_is_given_up) {
   const SharedBytes mebibyte = bytes(std::string(1 << 20, 'x'));
   for (int n = 0; n < 4; ++n) EXPECT_TRUE(outbound.say(mebibyte));
   EXPECT_FALSE(outbound.say(bytes("x")));
-  (void)outbound.next();
+  (void)outbound.next(0s);
   EXPECT_TRUE(outbound.say(bytes("x")));
 }
 

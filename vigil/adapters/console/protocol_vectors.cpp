@@ -89,6 +89,7 @@ Json snapshot_case() {
                                 .age_s = 0.125,
                                 .worst_age_s = std::nan(""),
                                 .speed_limit_m_s = 0.5,
+                                .steady_ms = 2048.25,
                                 .lost_ticks = 9};
   constexpr double kScale = 4.0 * 0.5 / 32767.0;
   return frame_case("two drones, one never seen", "snapshot", snapshot_frame(flying(), clock, context),
@@ -113,6 +114,7 @@ Json snapshot_case() {
                      {"idle", 0},
                      {"velocity_scale_m_s", static_cast<double>(static_cast<float>(kScale))},
                      {"lost_ticks", 9},
+                     {"steady_ms", 2048.25},
                      {"position", {0.5, 1.5, "NaN", "NaN"}},
                      {"height", {1.0, 0.0}},
                      {"nearest", {0.375, "NaN"}},
@@ -170,29 +172,32 @@ Json other_frames() {
   seen.see({3.0, 1.5}, 0.1, 21.5);
   const float nan = std::numeric_limits<float>::quiet_NaN();
   const Trails trails{2, 2, 0.25, 23.0, {0.5F, 1.5F, 0.625F, 1.5F, nan, nan, 2.5F, 0.25F}};
-  return Json::array({frame_case("four coefficients", "coverage", coverage_frame(field, flying(), 3),
-                                 {{"has_samples", true},
-                                  {"epoch", 3},
-                                  {"time_s", 23.0},
-                                  {"length_x_m", 4.0},
-                                  {"length_y_m", 2.0},
-                                  {"indices_per_axis", 2},
-                                  {"c_k", {0.5, -0.125, 0.25, 1.0}}}),
-                      frame_case("two of four cells seen", "age", age_frame(seen, 23.0, 3),
-                                 {{"epoch", 3},
-                                  {"time_s", 23.0},
-                                  {"length_x_m", 4.0},
-                                  {"length_y_m", 2.0},
-                                  {"width", 2},
-                                  {"height", 2},
-                                  {"age_ds", {130, 65535, 65535, 15}}}),
-                      frame_case("two drones, two points", "trails", trails_frame(trails, 3),
-                                 {{"epoch", 3},
-                                  {"drones", 2},
-                                  {"points", 2},
-                                  {"spacing_s", 0.25},
-                                  {"time_s", 23.0},
-                                  {"xy", {0.5, 1.5, 0.625, 1.5, "NaN", "NaN", 2.5, 0.25}}})});
+  return Json::array(
+      {frame_case("four coefficients", "coverage", coverage_frame(field, flying(), 3),
+                  {{"has_samples", true},
+                   {"epoch", 3},
+                   {"time_s", 23.0},
+                   {"length_x_m", 4.0},
+                   {"length_y_m", 2.0},
+                   {"indices_per_axis", 2},
+                   {"c_k", {0.5, -0.125, 0.25, 1.0}}}),
+       frame_case("two of four cells seen", "age", age_frame(seen, 23.0, 3),
+                  {{"epoch", 3},
+                   {"time_s", 23.0},
+                   {"length_x_m", 4.0},
+                   {"length_y_m", 2.0},
+                   {"width", 2},
+                   {"height", 2},
+                   {"age_ds", {130, 65535, 65535, 15}}}),
+       frame_case("two drones, two points", "trails", trails_frame(trails, 3),
+                  {{"epoch", 3},
+                   {"drones", 2},
+                   {"points", 2},
+                   {"spacing_s", 0.25},
+                   {"time_s", 23.0},
+                   {"xy", {0.5, 1.5, 0.625, 1.5, "NaN", "NaN", 2.5, 0.25}}}),
+       frame_case("the middle of a status", "part", part_frame(R"({"type":"status"})", {6, 2, 6}),
+                  {{"stream", 6}, {"offset", 2}, {"total", 17}, {"bytes", {116, 121, 112, 101, 34, 58}}})});
 }
 
 /// Both drones at first, then the second one on the ground.
@@ -227,7 +232,8 @@ Json frames() {
 const std::vector<std::pair<std::string, std::string>>& client_texts() {
   static const std::vector<std::pair<std::string, std::string>> kTexts{
       {"hello", R"({"type":"hello"})"},
-      {"hello with all", R"({"type":"hello","name":"Ana","token":"0123456789abcdef","role":"viewer"})"},
+      {"hello with all", R"({"type":"hello","name":"Ana","token":"0123456789abcdef","role":"viewer","confirms":true})"},
+      {"confirm", R"({"type":"confirm","received":123})"},
       {"ping", R"({"type":"ping","id":1})"},
       {"land some", R"({"type":"land","id":2,"drones":["a","b"]})"},
       {"take off all", R"({"type":"take_off","id":3,"drones":"all"})"},
@@ -257,6 +263,9 @@ const std::vector<std::pair<std::string, std::string>>& client_texts() {
       {"negative id", R"({"type":"ping","id":-1})"},
       {"id too large for a double", R"({"type":"ping","id":9007199254740992})"},
       {"unknown member", R"({"type":"ping","id":1,"colour":"red"})"},
+      {"confirm nothing", R"({"type":"confirm"})"},
+      {"confirm with an id", R"({"type":"confirm","received":123,"id":1})"},
+      {"perhaps to confirm", R"({"type":"hello","confirms":"yes"})"},
       {"nobody", R"({"type":"land","id":1,"drones":[]})"},
       {"wrong word for all", R"({"type":"land","id":1,"drones":"everybody"})"},
       {"unknown role", R"({"type":"hello","role":"admiral"})"},
@@ -376,7 +385,7 @@ Json server_messages() {
   const auto add = [&list](const char* name, Json message) {
     list.push_back({{"name", name}, {"message", std::move(message)}});
   };
-  add("hello", hello_json(ana, "vigil 0.1.0", true));
+  add("hello", hello_json(ana, "vigil 0.1.0", true, 2048.25));
   const RecordingFacts recording{
       .begin_s = 0.0, .end_s = 23.0, .ticks = 1151, .spacing_s = 0.02, .incomplete = "it was cut off"};
   add("mission", shortened(mission_message(mission, 3)));
@@ -392,7 +401,7 @@ Json server_messages() {
   add("ack of some", ack_json(9, {1151, false, {}, {{"b", "b is on the ground already"}}}));
   add("refused", refused_json({10, "stale", "Ben changed it"}));
   add("refused, no id", refused_json({{}, "malformed", "it is not JSON in UTF-8"}));
-  add("pong", pong_json(11, 1024.5));
+  add("pong", pong_json(11, 1024.5, 2048.25));
   add("preview", preview_vector());
   add("why", why_vector(mission));
   add("bye", bye_json("ending", "the program ends"));

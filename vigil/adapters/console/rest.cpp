@@ -141,7 +141,7 @@ void Rest::answer_command(const std::variant<ClientMessage, MessageRefusal>& par
     return reply(json_answer(status_of(json), json));
   }
   const auto& message = std::get<ClientMessage>(parsed);
-  if (!message.id) return reply(refusal(400, "malformed", "hello is for WebSockets"));
+  if (!message.id) return reply(refusal(400, "malformed", "hello and confirm are for WebSockets"));
   hub_.command(message, role, std::string(kRestName),
                [reply](const Json& json) { reply(json_answer(status_of(json), json)); });
 }

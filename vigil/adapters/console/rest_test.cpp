@@ -182,6 +182,7 @@ TEST_F(RestTest, Commands_are_answered_as_by_websocket_with_the_status_that_says
   EXPECT_EQ(status(command({{"type", "take_off"}, {"id", 1}, {"drones", {"b"}}})), 409);
   EXPECT_EQ(status(command({{"type", "hold"}})), 400);
   EXPECT_EQ(status(command({{"type", "hello"}})), 400);
+  EXPECT_EQ(status(command({{"type", "confirm"}, {"received", 1}})), 400);
   EXPECT_EQ(status(post("/api/commands", "{")), 400);
   EXPECT_EQ(status(post("/api/commands", std::string(kMostMessageBytes + 1, ' '))), 413);
   EXPECT_EQ(console.hub.state().at("drones").at(0).at("activity"), "held");

@@ -43,7 +43,10 @@ using Request = WireRequest;
 constexpr auto kHttpTimeout = 30s;
 constexpr auto kPollEvery = 5ms;
 constexpr auto kOverEvery = 100ms;
-constexpr int kSendBufferBytes = 128 * 1024;  // what the kernel holds back from a slow client is old when it arrives
+constexpr int kSendBufferBytes =
+    128 * 1024;  // what the kernel holds back of a client that does not confirm is old when it arrives
+
+std::chrono::nanoseconds monotonic_now() { return std::chrono::steady_clock::now().time_since_epoch(); }
 
 /// What a connection needs of the server; it outlives all of them.
 struct Host {
@@ -95,6 +98,14 @@ class Talk final : public ClientLine, public Guest, public std::enable_shared_fr
     send_next();
   }
 
+  void pace() override { outbound_.pace(); }
+
+  [[nodiscard]] bool confirm(std::uint64_t received) override {
+    const bool is_so = outbound_.confirm(received, monotonic_now());
+    if (is_so) send_next();
+    return is_so;
+  }
+
   [[nodiscard]] const std::string& origin() const override { return origin_; }
   [[nodiscard]] bool is_stranger() const override { return !host_.hub.knows(client_); }
   void give_place() override { break_off(); }
@@ -132,7 +143,7 @@ class Talk final : public ClientLine, public Guest, public std::enable_shared_fr
   /// One message at a time; what comes meanwhile waits in outbound_.
   void send_next() {
     if (is_sending_ || is_broken_) return;
-    std::optional<Outbound::Message> message = outbound_.next();
+    std::optional<Outbound::Message> message = outbound_.next(monotonic_now());
     if (!message) return is_closing_ ? say_goodbye() : void();
     is_sending_ = true;
     socket_.text(message->is_text);
@@ -242,8 +253,6 @@ class Visit final : public Guest, public std::enable_shared_from_this<Visit<Stre
   Request request_;
   WireResponse response_;
 };
-
-std::chrono::nanoseconds monotonic_now() { return std::chrono::steady_clock::now().time_since_epoch(); }
 
 double wall_ms_now() {
   return std::chrono::duration<double, std::milli>(std::chrono::system_clock::now().time_since_epoch()).count();

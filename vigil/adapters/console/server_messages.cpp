@@ -49,10 +49,10 @@ Json replay_json(const ReplayState& replay) {
 
 }  // namespace
 
-Json hello_json(const Operator& client, std::string_view program, bool wants_login) {
-  return {{"type", "hello"},         {"protocol", 1},       {"program", program},
-          {"client", client.client}, {"name", client.name}, {"role", name_of(client.role)},
-          {"roles", kRoleWords},     {"login", wants_login}};
+Json hello_json(const Operator& client, std::string_view program, bool wants_login, double steady_ms) {
+  return {{"type", "hello"},         {"protocol", 1},        {"program", program},
+          {"client", client.client}, {"name", client.name},  {"role", name_of(client.role)},
+          {"roles", kRoleWords},     {"login", wants_login}, {"steady_ms", steady_ms}};
 }
 
 Json mission_message(const runtime::Mission& mission, std::uint32_t epoch) {
@@ -160,7 +160,9 @@ Json refused_json(const MessageRefusal& refusal) {
           {"reason", refusal.reason}};
 }
 
-Json pong_json(std::uint64_t id, double wall_ms) { return {{"type", "pong"}, {"id", id}, {"wall_ms", wall_ms}}; }
+Json pong_json(std::uint64_t id, double wall_ms, double steady_ms) {
+  return {{"type", "pong"}, {"id", id}, {"wall_ms", wall_ms}, {"steady_ms", steady_ms}};
+}
 
 Json bye_json(std::string_view code, std::string_view reason) {
   return {{"type", "bye"}, {"code", code}, {"reason", reason}};

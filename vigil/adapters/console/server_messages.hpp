@@ -87,7 +87,7 @@ struct Answer {
 
 using Json = nlohmann::ordered_json;
 
-[[nodiscard]] Json hello_json(const Operator& client, std::string_view program, bool wants_login);
+[[nodiscard]] Json hello_json(const Operator& client, std::string_view program, bool wants_login, double steady_ms);
 [[nodiscard]] Json mission_message(const runtime::Mission& mission, std::uint32_t epoch);
 [[nodiscard]] Json recorded_mission_message(const runtime::Mission& mission, std::uint32_t epoch,
                                             const RecordingFacts& recording);
@@ -100,7 +100,7 @@ using Json = nlohmann::ordered_json;
 [[nodiscard]] Json presence_json(const std::vector<Operator>& operators);
 [[nodiscard]] Json ack_json(std::uint64_t id, const Answer& answer);
 [[nodiscard]] Json refused_json(const MessageRefusal& refusal);
-[[nodiscard]] Json pong_json(std::uint64_t id, double wall_ms);
+[[nodiscard]] Json pong_json(std::uint64_t id, double wall_ms, double steady_ms);
 [[nodiscard]] Json bye_json(std::string_view code, std::string_view reason);
 
 /// The protocol's word for why a desk refused.

@@ -1,5 +1,16 @@
-import { decodeFrame, FrameError, type Frame } from './frames';
-import { decodeMessage, type Ack, type Preview, type Refused, type ServerMessage, type Why } from './messages';
+import { decodeFrame, FrameError, isFrame, type Frame } from './frames';
+import {
+  decodeMessage,
+  type Ack,
+  type Hello,
+  type MessageOf,
+  type Preview,
+  type Refused,
+  type ServerMessage,
+  type Why,
+} from './messages';
+import { Parts } from './parts';
+import { ProgramClock } from './program_clock';
 import { ShapeError } from './shape';
 
 /** The part of a WebSocket that is used here; tests bring their own. */
@@ -53,6 +64,10 @@ const kOpenWithinMs = 8000;
 const kAnswerWithinMs = 5000;
 const kFirstRetryMs = 400;
 const kMostRetryMs = 8000;
+/** The program's clock is asked for so often, and more often while it is not well known. */
+const kAskClockMs = 2000;
+const kAskClockSoonMs = 200;
+const kGoodErrorMs = 10;
 
 /** The wait before try number `failures`: doubling, at most 8 s, somewhere between half of it and all. */
 export function backOffMs(failures: number, random: number): number {
@@ -74,6 +89,13 @@ export class ConsoleLink {
     retryAtMs: null,
   };
   private readonly waiting = new Map<number, { settle: (answer: Answer) => void; cancel: () => void }>();
+  private readonly parts = new Parts();
+  /** Of the program that was connected last. */
+  readonly clock = new ProgramClock();
+  private received = 0;
+  private helloAtMs = 0;
+  /** The last question for the program's clock; null where none was asked. */
+  private asked: { readonly id: number; readonly atMs: number; readonly isAnswered: boolean } | null = null;
   private closing = '';
   private hasEnded = false;
 
@@ -95,8 +117,11 @@ export class ConsoleLink {
     const socket = this.world.openSocket();
     this.socket = socket;
     socket.binaryType = 'arraybuffer';
-    socket.onopen = () => socket.send(JSON.stringify({ type: 'hello', ...this.identity }));
-    socket.onmessage = (event) => socket === this.socket && this.received(event.data);
+    this.parts.forget();
+    this.received = 0;
+    this.asked = null;
+    socket.onopen = () => this.introduceTo(socket);
+    socket.onmessage = (event) => socket === this.socket && this.read(event.data);
     socket.onclose = () => socket === this.socket && this.dropped();
     this.cancelTimer();
     this.cancelTimer = this.world.after(kOpenWithinMs, () => socket.close());
@@ -119,11 +144,20 @@ export class ConsoleLink {
     this.failWaiting('the connection was closed');
   }
 
+  private introduceTo(socket: Socket): void {
+    this.helloAtMs = this.world.nowMs();
+    socket.send(JSON.stringify({ type: 'hello', ...this.identity, confirms: true }));
+  }
+
+  /** Whether commands can be sent: somebody greeted, and the socket is open, however long it has been silent. */
+  get isConnected(): boolean {
+    return this.socket !== null && (this.current.phase === 'live' || this.current.phase === 'silent');
+  }
+
   /** Sends a command; the answer is a refusal when nobody answers within 5 s or the link breaks. */
   command(command: Command): Promise<Answer> {
     const id = this.nextId++;
-    if (this.current.phase !== 'live' || !this.socket)
-      return Promise.resolve(refusal(id, 'offline', 'Not connected: nothing was sent.'));
+    if (!this.isConnected) return Promise.resolve(refusal(id, 'offline', 'Not connected: nothing was sent.'));
     return new Promise((settle) => {
       const cancel = this.world.after(kAnswerWithinMs, () => {
         this.waiting.delete(id);
@@ -134,14 +168,30 @@ export class ConsoleLink {
     });
   }
 
-  private received(data: unknown): void {
+  private read(data: unknown): void {
+    if (this.current.phase === 'silent') this.closeLater();
     try {
-      if (typeof data === 'string') this.handle(decodeMessage(data));
-      else if (data instanceof ArrayBuffer) this.handleFrame(decodeFrame(data));
+      this.take(data);
     } catch (error) {
       if (!(error instanceof ShapeError) && !(error instanceof FrameError)) throw error;
       this.listener.mistakeSeen(error.message);
     }
+    this.confirm();
+  }
+
+  /** After the message was read and used: more than two pictures are never on the way, wherever they would wait. */
+  private confirm(): void {
+    this.received++;
+    if (this.isConnected) this.socket!.send(JSON.stringify({ type: 'confirm', received: this.received }));
+  }
+
+  private take(data: unknown): void {
+    if (typeof data === 'string') this.handle(decodeMessage(data));
+    if (!(data instanceof ArrayBuffer)) return;
+    const frame = decodeFrame(data);
+    if (frame?.kind !== 'part') return this.handleFrame(frame);
+    const whole = this.parts.take(frame);
+    if (whole) this.take(isFrame(whole) ? whole : new TextDecoder().decode(whole));
   }
 
   private handle(message: ServerMessage | null): void {
@@ -152,6 +202,7 @@ export class ConsoleLink {
     else if (message.type === 'why')
       this.settle(message.id, { ok: true, ack: acknowledged(message, null), why: message });
     else if (message.type === 'refused') this.settle(message.id, { ok: false, refused: message });
+    else if (message.type === 'pong') this.toldTime(message);
     else if (message.type === 'bye') this.dismissed(message.code, message.reason);
     else if (message.type === 'hello') this.greeted(message);
     else this.listener.messageCame(message);
@@ -163,16 +214,40 @@ export class ConsoleLink {
     this.change(this.current.phase, reason);
   }
 
-  private greeted(hello: ServerMessage): void {
+  private greeted(hello: Hello): void {
     this.failures = 0;
+    this.clock.forget();
+    this.clock.answered(this.helloAtMs, hello.steady_ms, this.world.nowMs());
     this.heard();
     this.listener.messageCame(hello);
   }
 
   private handleFrame(frame: Frame | null): void {
     if (!frame) return;
-    if (frame.kind === 'snapshot') this.heard();
+    if (frame.kind === 'snapshot') {
+      this.heard();
+      this.clock.saw(frame.steadyMs, this.world.nowMs());
+      this.askClock();
+    }
     this.listener.frameCame(frame);
+  }
+
+  private askClock(): void {
+    const atMs = this.world.nowMs();
+    if (this.asked && atMs - this.asked.atMs < this.clockPauseMs(this.asked.isAnswered)) return;
+    this.asked = { id: this.nextId++, atMs, isAnswered: false };
+    this.socket?.send(JSON.stringify({ type: 'ping', id: this.asked.id }));
+  }
+
+  private clockPauseMs(isAnswered: boolean): number {
+    if (!isAnswered) return kAnswerWithinMs;
+    return this.clock.errorMs(this.world.nowMs()) < kGoodErrorMs ? kAskClockMs : kAskClockSoonMs;
+  }
+
+  private toldTime(pong: MessageOf<'pong'>): void {
+    if (pong.id !== this.asked?.id) return;
+    this.clock.answered(this.asked.atMs, pong.steady_ms, this.world.nowMs());
+    this.asked = { ...this.asked, isAnswered: true };
   }
 
   /** Fresh data came: live, until nothing comes for too long. */
@@ -184,8 +259,13 @@ export class ConsoleLink {
   }
 
   private fellSilent(): void {
-    this.change('silent', 'The program has sent nothing for a while.');
+    this.change('silent', 'The program has sent no picture for a while.');
+    this.closeLater();
+  }
+
+  private closeLater(): void {
     const socket = this.socket;
+    this.cancelTimer();
     this.cancelTimer = this.world.after(kOpenWithinMs, () => socket?.close());
   }
 

@@ -23,10 +23,25 @@ function connected() {
   return { world, link, phases, mistakes, types };
 }
 
+/** The bytes from `begin` to `end` of a text, as the program sends them. */
+function partOf(text: string, begin: number, end: number): ArrayBuffer {
+  const part = new TextEncoder().encode(text).subarray(begin, end);
+  const bytes = new Uint8Array(24 + part.length);
+  const view = new DataView(bytes.buffer);
+  view.setUint32(0, 0x56474c31, false);
+  view.setUint8(4, 7);
+  view.setUint16(6, 24, true);
+  view.setUint32(12, part.length, true);
+  view.setUint32(16, begin, true);
+  view.setUint32(20, text.length, true);
+  bytes.set(part, 24);
+  return bytes.buffer;
+}
+
 describe('console link', () => {
   it('The first message says who is there, and the greeting makes it live', () => {
     const { world, link } = connected();
-    expect(world.last.sent).toEqual([{ type: 'hello', name: 'Ana' }]);
+    expect(world.last.sent[0]).toEqual({ type: 'hello', name: 'Ana', confirms: true });
     expect(link.state.phase).toBe('live');
   });
 
@@ -34,7 +49,7 @@ describe('console link', () => {
     const { world, link } = connected();
     const first = link.command({ type: 'land', drones: ['cf1'] });
     const second = link.command({ type: 'land', drones: ['cf2'] });
-    const [, a, b] = world.last.sent;
+    const [a, b] = world.last.sent.filter((message) => message['type'] === 'land');
     world.last.say({ type: 'refused', id: b!['id'], code: 'not_now', reason: 'cf2 is on the ground' });
     world.last.say({ type: 'ack', id: a!['id'], tick: 7 });
     expect(await first).toMatchObject({ ok: true, ack: { tick: 7 } });
@@ -54,6 +69,46 @@ describe('console link', () => {
     expect(link.state.phase).toBe('live');
     world.pass(0.2 * kSilenceMs);
     expect(link.state.phase).toBe('silent');
+  });
+
+  it('Every message is confirmed once it was read, whatever was in it', () => {
+    const { world } = connected();
+    const confirmed = () =>
+      world.last.sent.filter((one) => one['type'] === 'confirm').map((one) => one['received'] as number);
+    expect(confirmed()).toEqual([1]);
+    world.last.say({ type: 'something_new' });
+    world.last.onmessage?.({ data: 'no JSON' });
+    world.last.onmessage?.({ data: partOf('{"type":"presence","operators":[]}', 0, 20) });
+    expect(confirmed()).toEqual([1, 2, 3, 4]);
+  });
+
+  it('A message that comes in parts is taken when its last one is there', () => {
+    const { world, types, mistakes } = connected();
+    const whole = '{"type":"presence","operators":[]}';
+    world.last.onmessage?.({ data: partOf(whole, 0, 20) });
+    expect(types).toEqual(['hello']);
+    world.last.onmessage?.({ data: partOf(whole, 20, whole.length) });
+    expect(types).toEqual(['hello', 'presence']);
+    expect(mistakes).toEqual([]);
+  });
+
+  it('Commands go out as long as the socket is open, however silent it is', () => {
+    const { world, link } = connected();
+    world.pass(1.1 * kSilenceMs);
+    expect([link.state.phase, link.isConnected]).toEqual(['silent', true]);
+    void link.command({ type: 'land_all' });
+    expect(world.last.sent.at(-1)).toMatchObject({ type: 'land_all' });
+  });
+
+  it('A silent connection over which something comes is not given up', () => {
+    const { world } = connected();
+    for (let second = 0; second < 30; second++) {
+      world.pass(1000);
+      world.last.say({ type: 'something_new' });
+    }
+    expect(world.last.isClosed).toBe(false);
+    world.pass(8000);
+    expect(world.last.isClosed).toBe(true);
   });
 
   it('A program that said that it ends has ended, until one greets again', () => {

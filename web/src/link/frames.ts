@@ -7,7 +7,8 @@ export class FrameError extends Error {}
 
 /** More than this many drones, cells or rows is no frame of ours. */
 const kMost = 16_000_000;
-const kHeaderBytes = [0, 96, 48, 40, 40, 32, 32] as const;
+const kMagic = 0x56474c31; // VGL1
+const kHeaderBytes = [0, 104, 48, 40, 40, 32, 32, 24] as const;
 
 export interface Snapshot {
   readonly kind: 'snapshot';
@@ -32,6 +33,8 @@ export interface Snapshot {
   readonly idle: number;
   readonly velocityScale: number;
   readonly lostTicks: number;
+  /** When it was true, by the program's steady clock. */
+  readonly steadyMs: number;
   /** Field frame, x and y by turns. */
   readonly position: Float32Array;
   readonly height: Float32Array;
@@ -121,13 +124,26 @@ export interface History {
   readonly values: Float32Array;
 }
 
+/** Some bytes of a message that comes in several, of which those of one stream follow each other. */
+export interface Part {
+  readonly kind: 'part';
+  readonly stream: number;
+  readonly offset: number;
+  readonly total: number;
+  readonly bytes: Uint8Array;
+}
+
 export type Frame = Snapshot | Density | Coverage | AgeMap | Trails | History;
 
+/** Whether these bytes are a frame and no text. */
+export const isFrame = (bytes: ArrayBuffer): boolean =>
+  bytes.byteLength >= 4 && new DataView(bytes).getUint32(0, false) === kMagic;
+
 /** The frame, or null for a kind that a later version added. Throws FrameError. */
-export function decodeFrame(bytes: ArrayBuffer): Frame | null {
+export function decodeFrame(bytes: ArrayBuffer): Frame | Part | null {
   if (bytes.byteLength < 16) throw new FrameError(`a frame of ${bytes.byteLength} bytes has no header`);
   const view = new DataView(bytes);
-  if (view.getUint32(0, false) !== 0x56474c31) throw new FrameError('a frame that does not begin with VGL1');
+  if (view.getUint32(0, false) !== kMagic) throw new FrameError('a frame that does not begin with VGL1');
   const kind = view.getUint8(4);
   const least = kHeaderBytes[kind];
   if (!least) return null;
@@ -161,6 +177,13 @@ class ArrayReader {
   u32 = (offset: number): number => this.view.getUint32(offset, true);
   u8 = (offset: number): number => this.view.getUint8(offset);
 
+  /** The same of 64 bits. */
+  finite64(offset: number, name: string): number {
+    const value = this.f64(offset);
+    if (!Number.isFinite(value)) throw new FrameError(`${name} is ${value}`);
+    return value;
+  }
+
   /** A number that must be finite: what everything else is placed by. */
   finite(offset: number, name: string): number {
     const value = this.f32(offset);
@@ -184,13 +207,14 @@ class ArrayReader {
   }
 }
 
-const kDecoders: Record<number, (reader: ArrayReader) => Frame> = {
+const kDecoders: Record<number, (reader: ArrayReader) => Frame | Part> = {
   1: decodeSnapshot,
   2: decodeDensity,
   3: decodeCoverage,
   4: decodeAge,
   5: decodeTrails,
   6: decodeHistory,
+  7: decodePart,
 };
 
 function decodeSnapshot(r: ArrayReader): Snapshot {
@@ -220,6 +244,7 @@ function decodeSnapshot(r: ArrayReader): Snapshot {
     idle: r.u8(80),
     velocityScale: r.finite(84, 'velocity_scale_m_s'),
     lostTicks: r.u32(92),
+    steadyMs: r.finite64(96, 'steady_ms'),
     position: r.take(Float32Array, 2 * n),
     height: r.take(Float32Array, n),
     nearest: r.take(Float32Array, n),
@@ -333,5 +358,15 @@ function decodeHistory(r: ArrayReader): History {
     spacingS,
     time,
     values: r.take(Float32Array, r.n * columns),
+  };
+}
+
+function decodePart(r: ArrayReader): Part {
+  return {
+    kind: 'part',
+    stream: r.flags,
+    offset: r.u32(16),
+    total: r.u32(20),
+    bytes: r.take(Uint8Array, r.n),
   };
 }

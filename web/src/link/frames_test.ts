@@ -28,7 +28,7 @@ function joined(...parts: ArrayBufferView[]): ArrayBuffer {
 
 /** Two drones; the first is held by the second. */
 function snapshot(): ArrayBuffer {
-  const view = header(1, 96, 4);
+  const view = header(1, 104, 4);
   view.setFloat64(16, 1151, true);
   view.setFloat64(24, 23.02, true);
   view.setFloat32(84, kVelocityScale, true);

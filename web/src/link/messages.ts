@@ -36,6 +36,7 @@ const helloShape = record({
   role,
   roles: list(role, 10),
   login: flag,
+  steady_ms: finite,
 });
 
 const displayShape = record({
@@ -221,7 +222,7 @@ const kShapes = {
   refused: refusedShape,
   preview: previewShape,
   why: whyShape,
-  pong: record({ id: finite }),
+  pong: record({ id: finite, steady_ms: finite }),
   bye: record({ code: name, reason: sentence }),
 } as const satisfies Record<string, Shape<unknown>>;
 

@@ -57,7 +57,7 @@ describe('protocol vectors', () => {
 
   it('There is one of each kind of frame', () => {
     expect(new Set(frames.map((frame) => frame.kind))).toEqual(
-      new Set(['snapshot', 'density', 'coverage', 'age', 'trails', 'history']),
+      new Set(['snapshot', 'density', 'coverage', 'age', 'trails', 'history', 'part']),
     );
   });
 

@@ -13,7 +13,7 @@ export function Covers() {
   const { phase } = session.linkState.value;
   if (phase === 'refused') return <Refused />;
   if (!session.hasSnapshot.value) return <Loading />;
-  if (phase !== 'live') return <Disconnected />;
+  if (!session.isLive.value) return <NotLive />;
   return (
     <>
       {map.value?.problem.value && (
@@ -65,7 +65,8 @@ function Refused() {
   );
 }
 
-function Disconnected() {
+/** What is shown is frozen or late: why, what the drones do, and what can be done. */
+function NotLive() {
   const { session } = useApp();
   const now = useSignal(0);
   useEffect(() => {
@@ -73,7 +74,7 @@ function Disconnected() {
     return () => window.clearInterval(timer);
   }, []);
   void now.value;
-  const { reason, retryAtMs, phase, hasEnded } = session.linkState.value;
+  const { retryAtMs, phase } = session.linkState.value;
   const wait = retryAtMs === null ? 0 : Math.max(0, (retryAtMs - session.world.nowMs()) / 1000);
   return (
     <div class="banner" data-testid="disconnected">
@@ -82,10 +83,10 @@ function Disconnected() {
       </span>
       <p>
         <strong class="alarm">
-          <span role="alert">Disconnected.</span> What you see is {age(session.dataAgeS())} old and frozen.
+          <span role="alert">{session.isConnected.value ? 'Stale picture.' : 'Disconnected.'}</span> What you see is{' '}
+          {age(session.dataAgeS())} old{phase === 'live' ? '.' : ' and frozen.'}
         </strong>
-        {hasEnded ? 'The program was ended.' : sentence(reason)} Editing is off.{' '}
-        {hasEnded ? fateAfterTheEnd(session.mission.value?.fleet) : kFateWithoutConsole}
+        {session.isConnected.value ? <StillConnected /> : <Unconnected />}
         {phase === 'lost' && <span class="dim"> Next try in {wait.toFixed(0)} s.</span>}
       </p>
       <button type="button" onClick={() => session.link.open()}>
@@ -95,9 +96,31 @@ function Disconnected() {
   );
 }
 
+const StillConnected = () => (
+  <>
+    No fresh one comes: the connection is slow or broken, or this page too busy. Editing is off. LAND ALL and EMERGENCY
+    STOP are still sent, and it is said whether they are confirmed. {kFateWithoutConsole}
+  </>
+);
+
+function Unconnected() {
+  const { session } = useApp();
+  const { reason, hasEnded } = session.linkState.value;
+  return (
+    <>
+      {hasEnded ? 'The program was ended.' : sentence(reason)} Editing is off.{' '}
+      {hasEnded ? fateAfterTheEnd(session.mission.value?.fleet) : `${kFateWithoutConsole} ${kLandWithoutConsole}`}
+    </>
+  );
+}
+
 const kFateWithoutConsole =
   'The drones need no console: the program goes on covering with the last committed targets; should the program itself be ' +
   'gone, each vehicle hovers and then lands by its own failsafe.';
+
+const kLandWithoutConsole =
+  'Nothing can be ordered from here: to land now use another browser, the program’s own machine (POST /api/commands, see ' +
+  'docs/console.md), or the vehicles’ remote controls.';
 
 const fateAfterTheEnd = (fleet: string | undefined): string =>
   fleet === 'SIM'

@@ -47,7 +47,7 @@ export function Orders() {
           <button
             key={order}
             type="button"
-            disabled={!session.mayOperate.value}
+            disabled={!orders.may(order)}
             onClick={() => orders.to(order, selected.length === 0 ? 'all' : selected)}
           >
             <Icon name={kOrderIcons[order]} />

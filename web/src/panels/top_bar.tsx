@@ -35,7 +35,7 @@ export function TopBar() {
         <button
           type="button"
           class="land-all"
-          disabled={!session.mayOperate.value}
+          disabled={!session.mayLand.value}
           title="Every drone lands where it is (Shift+L)"
           onClick={() => orders.landAll()}
         >
@@ -149,7 +149,7 @@ function DataAge() {
   const { session } = useApp();
   const now = useSignal(0);
   useEffect(() => {
-    const timer = window.setInterval(() => now.value++, 250);
+    const timer = window.setInterval(() => now.value++, 100);
     return () => window.clearInterval(timer);
   }, []);
   void session.beat.value;

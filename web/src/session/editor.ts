@@ -114,7 +114,7 @@ export class Editor {
         ? 'This is a recording: what happened in it cannot be changed.'
         : session.isLive.value
           ? 'Your role may look, not edit.'
-          : 'Not connected: editing is off.',
+          : 'There is no fresh picture: editing is off.',
     );
     return false;
   }

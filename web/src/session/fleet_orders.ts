@@ -37,7 +37,10 @@ export class FleetOrders {
   to(order: Order, drones: readonly string[] | 'all'): void {
     const isAll = drones === 'all' || drones.length === this.session.droneIds.value.length;
     const who = isAll ? 'all drones' : drones.length > 3 ? `${drones.length} drones` : drones.join(', ');
-    void this.session.command({ type: order, drones: isAll ? 'all' : drones }, `${kOrderNames[order]}: ${who}`);
+    const command = { type: order, drones: isAll ? 'all' : drones };
+    const done = `${kOrderNames[order]}: ${who}`;
+    if (order === 'land') void this.session.bringDown(command, done, done);
+    else void this.session.command(command, done);
   }
 
   /** The selected drones fly to a place of the world and wait there; all of them where none is selected. */
@@ -52,17 +55,23 @@ export class FleetOrders {
   }
 
   landAll(): void {
-    void this.session.command({ type: 'land_all' }, 'LAND ALL: every drone comes down.');
+    void this.session.bringDown({ type: 'land_all' }, 'LAND ALL', 'LAND ALL: every drone comes down.');
   }
 
   emergencyStop(drones: readonly string[] | 'all'): void {
     const who = drones === 'all' ? 'all drones' : drones.join(', ');
-    void this.session.command({ type: 'emergency_stop', drones }, `EMERGENCY STOP: motors off, ${who}.`);
+    const done = `EMERGENCY STOP: motors off, ${who}.`;
+    void this.session.bringDown({ type: 'emergency_stop', drones }, 'EMERGENCY STOP', done);
   }
 
   /** Says that a button was held too shortly to stop motors, and what else there is to do. */
   stopLetGo(otherwise: string): void {
     this.session.notify('warning', `No motor was stopped: hold the button for one second, ${otherwise}.`);
+  }
+
+  /** Whether this console may order that of drones now. */
+  may(order: Order): boolean {
+    return order === 'land' ? this.session.mayLand.value : this.session.mayOperate.value;
   }
 
   /** Whether this console may stop motors now; says why where it may not. */
@@ -71,7 +80,7 @@ export class FleetOrders {
     if (session.mayStopMotors.value) return true;
     const reason = session.isRecording.value
       ? 'This is a recording: nothing was sent.'
-      : session.isLive.value
+      : session.isConnected.value
         ? 'Only a safety pilot may stop motors.'
         : 'Not connected: nothing was sent.';
     session.notify('warning', reason);

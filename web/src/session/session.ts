@@ -6,6 +6,7 @@ import { FieldFrame } from '../model/field_frame';
 import { draftOf, isStaged, nothingStaged, rebase, touched, type Staging } from '../model/staging';
 import { kNoTargets, type EntryName, type Targets } from '../model/targets';
 import { deedOf } from '../model/deeds';
+import { sentence } from '../model/units';
 import { Series } from './series';
 
 export type NoticeKind = 'info' | 'warning' | 'alarm';
@@ -22,6 +23,11 @@ const kMostEvents = 1000;
 const kMostAlarms = 50;
 const kMostOthers = 4;
 const kBeatMs = 200;
+/** A picture that is older than this is not live; one that comes after it must be this young to be live again. */
+export const kStaleS = 1.5;
+const kFreshS = 1;
+/** An order that brings drones down should be confirmed by then; if not, that is said. */
+const kConfirmedWithinMs = 400;
 
 /**
  * What this page knows of the swarm. Fast data (frames) is held as it came, for the map to read at its own rate; slow
@@ -55,15 +61,25 @@ export class Session {
   readonly committed = computed<Targets>(() => this.targets.value ?? kNoTargets);
   readonly draft = computed<Targets>(() => draftOf(this.committed.value, this.staging.value) ?? this.committed.value);
   readonly isStaged = computed(() => isStaged(this.staging.value));
-  readonly isLive = computed(() => this.linkState.value.phase === 'live' && this.hasSnapshot.value);
+  /** The socket is open, though what comes may be old, or nothing may come. */
+  readonly isConnected = computed(() => ['live', 'silent'].includes(this.linkState.value.phase));
+  /** The newest picture is older than `kStaleS`, for whatever reason. */
+  readonly isOld = signal(false);
+  readonly isLive = computed(
+    () => this.linkState.value.phase === 'live' && this.hasSnapshot.value && !this.isOld.value,
+  );
   /** What happened in a recording cannot be changed; only its clock obeys. */
   readonly isRecording = computed(() => this.mission.value?.fleet === 'REPLAY');
   readonly mayTurnClock = computed(() => this.isLive.value && (this.hello.value?.role ?? 'viewer') !== 'viewer');
   readonly mayOperate = computed(() => this.mayTurnClock.value && !this.isRecording.value);
-  readonly mayStopMotors = computed(() => this.mayOperate.value && this.hello.value?.role === 'safety_pilot');
+  /** Drones are brought down also by who sees an old picture, or none. */
+  readonly mayLand = computed(
+    () => this.isConnected.value && !this.isRecording.value && (this.hello.value?.role ?? 'viewer') !== 'viewer',
+  );
+  readonly mayStopMotors = computed(() => this.mayLand.value && this.hello.value?.role === 'safety_pilot');
 
   snapshot: Snapshot | null = null;
-  /** When the snapshot came (World.nowMs), and how old it was then. */
+  /** When the snapshot came (World.nowMs). */
   snapshotAtMs = 0;
   density: Density | null = null;
   ghost: Density | null = null;
@@ -85,6 +101,7 @@ export class Session {
   private previewWanted = false;
   private lastEvent = 0;
   private shownEditing = '[]';
+  private cancelOld: () => void = () => undefined;
 
   constructor(
     readonly world: World,
@@ -110,10 +127,11 @@ export class Session {
     this.missionListeners.add(listener);
   }
 
-  /** Seconds since what is shown was true; Infinity before anything came. */
+  /** Seconds since what is shown was true, the way to this page and its own lateness included; Infinity before anything came. */
   dataAgeS(): number {
-    if (!this.snapshot) return Infinity;
-    return this.snapshot.ageS + (this.world.nowMs() - this.snapshotAtMs) / 1000;
+    const programMs = this.link.clock.at(this.world.nowMs());
+    if (!this.snapshot || programMs === null) return Infinity;
+    return Math.max(0, (programMs - this.snapshot.steadyMs) / 1000);
   }
 
   /**
@@ -141,8 +159,27 @@ export class Session {
 
   /** Sends a command and says what became of it; true when it was accepted. */
   async command(command: Command, done?: string): Promise<boolean> {
+    if (this.isConnected.value && !this.isLive.value) {
+      this.notify('warning', 'There is no fresh picture: nothing was sent. Landing and stopping motors still work.');
+      return false;
+    }
     const answer = await this.link.command(command);
     this.report(answer, done);
+    return answer.ok;
+  }
+
+  /** The same of an order that brings drones down, which goes out however old the picture is; says where it stands. */
+  async bringDown(command: Command, name: string, done: string): Promise<boolean> {
+    let notice = 0;
+    const cancel = this.world.after(kConfirmedWithinMs, () => {
+      notice = this.notify('warning', `${name} was sent; it is not confirmed yet.`, 60_000);
+    });
+    const answer = await this.link.command(command);
+    cancel();
+    this.dismiss(notice);
+    if (!answer.ok && ['no_answer', 'offline'].includes(answer.refused.code))
+      this.notify('alarm', `${name} is not confirmed. ${sentence(answer.refused.reason)}`);
+    else this.report(answer, done);
     return answer.ok;
   }
 
@@ -174,6 +211,7 @@ export class Session {
     switch (message.type) {
       case 'hello':
         this.hello.value = message;
+        this.isOld.value = this.snapshot !== null;
         this.shownEditing = '[]';
         break;
       case 'mission':
@@ -204,6 +242,7 @@ export class Session {
     if (!isAnother) return;
     this.snapshot = this.density = this.ghost = this.coverage = this.ageMap = this.trails = null;
     this.hasSnapshot.value = false;
+    this.isOld.value = false;
     if (before) this.partWith(before, mission);
     this.restage(nothingStaged(0));
     this.series.reset(mission.mission.drones.length);
@@ -304,6 +343,7 @@ export class Session {
     this.snapshot = snapshot;
     this.snapshotAtMs = this.world.nowMs();
     this.series.take(snapshot);
+    this.watchAge();
     for (const listener of this.snapshotListeners) listener(snapshot);
     if (this.snapshotAtMs - this.lastBeatMs < kBeatMs) return;
     this.lastBeatMs = this.snapshotAtMs;
@@ -311,6 +351,15 @@ export class Session {
       this.hasSnapshot.value = true;
       this.beat.value++;
     });
+  }
+
+  /** A picture that comes old is not live, and one that is live grows old by itself. */
+  private watchAge(): void {
+    this.cancelOld();
+    const ageS = this.dataAgeS();
+    if (ageS > kStaleS) this.isOld.value = true;
+    else if (ageS < kFreshS) this.isOld.value = false;
+    this.cancelOld = this.world.after(Math.max(0, 1000 * (kStaleS - ageS)), () => (this.isOld.value = true));
   }
 
   // --- staged edits -----------------------------------------------------------------------------------------------

@@ -3,6 +3,7 @@ import { stage } from '../model/staging';
 import type { Edit } from '../model/targets';
 import { FakeWorld, kHello, kMission } from '../testing/fake_world';
 import { Editor } from './editor';
+import { FleetOrders, kOrders } from './fleet_orders';
 import { Session } from './session';
 
 const targetsOf = (revision: number, weight: number, names = ['east'], by = 'Ana') => ({
@@ -38,17 +39,18 @@ const event = (number: number, severity: string, text: string, source = 'swarm',
 });
 
 /** Two drones at rest, as the program sends them. */
-function snapshotBytes(epoch = 1, active = 2, isPaused = false): ArrayBuffer {
-  const bytes = new ArrayBuffer(96 + 16 + 8 + 8 + 3 * 8 + 2 * 4 + 5 * 4);
+function snapshotBytes(epoch = 1, active = 2, isPaused = false, steadyMs = 0): ArrayBuffer {
+  const bytes = new ArrayBuffer(104 + 16 + 8 + 8 + 3 * 8 + 2 * 4 + 5 * 4);
   const view = new DataView(bytes);
   view.setUint32(0, 0x56474c31, false);
   view.setUint8(4, 1);
   view.setUint8(5, isPaused ? 1 : 0);
-  view.setUint16(6, 96, true);
+  view.setUint16(6, 104, true);
   view.setUint32(8, epoch, true);
   view.setUint32(12, 2, true);
   view.setUint32(72, active, true);
   view.setFloat32(84, 0.001, true);
+  view.setFloat64(96, steadyMs, true);
   return bytes;
 }
 
@@ -62,7 +64,7 @@ function begin() {
   socket.onmessage?.({ data: snapshotBytes() });
   world.pass(1); // beats are counted from 0
   world.now = 1000;
-  socket.onmessage?.({ data: snapshotBytes() });
+  socket.onmessage?.({ data: snapshotBytes(1, 2, false, 1000) });
   const sent = (type: string) => socket.sent.filter((message) => message['type'] === type);
   const heavier: Edit = { op: 'set_weight', kind: 'cluster', name: 'east', weight: 4 };
   const editor = new Editor(session, () => undefined);
@@ -231,7 +233,7 @@ describe('session', () => {
     ['the swarm flies', 2, false, 'Committed: the swarm follows.'],
   ])('After a commit it is said what becomes of it while %s', async (_, active, isPaused, words) => {
     const { session, socket, sent, editor, heavier } = begin();
-    socket.onmessage?.({ data: snapshotBytes(1, active, isPaused) });
+    socket.onmessage?.({ data: snapshotBytes(1, active, isPaused, 1000) });
     editor.stage('heavier', heavier);
     const done = editor.commit();
     socket.say({ type: 'ack', id: sent('edit')[0]!['id'], tick: 1, revision: 2 });
@@ -257,6 +259,78 @@ describe('session', () => {
     expect(session.isLive.value).toBe(false);
     expect(editor.stage('heavier', heavier)).toBe(false);
     expect(session.dataAgeS()).toBeGreaterThan(1.9);
+  });
+
+  it('The age counts the way to the page, and what the page let lie, by the program’s steady clock', () => {
+    const { world, session, socket } = begin();
+    world.pass(700);
+    socket.onmessage?.({ data: snapshotBytes(1, 2, false, 1000) });
+    expect(session.dataAgeS()).toBeCloseTo(0.7);
+    world.pass(300);
+    expect(session.dataAgeS()).toBeCloseTo(1);
+    socket.onmessage?.({ data: snapshotBytes(1, 2, false, 1990) });
+    expect(session.dataAgeS()).toBeCloseTo(0.01);
+  });
+
+  it('Pictures that keep coming, but old, are not live; they are again once a young one came', () => {
+    const { world, session, socket } = begin();
+    const come = (ageMs: number): void => {
+      world.pass(100);
+      socket.onmessage?.({ data: snapshotBytes(1, 2, false, world.now - ageMs) });
+    };
+    come(1400);
+    expect(session.isLive.value).toBe(true);
+    come(1600);
+    expect([session.isLive.value, session.linkState.value.phase]).toEqual([false, 'live']);
+    come(1200);
+    expect(session.isLive.value).toBe(false);
+    come(900);
+    expect(session.isLive.value).toBe(true);
+    world.pass(650);
+    expect(session.isLive.value).toBe(false);
+  });
+
+  it('After a connection broke nothing is live before a young picture came', () => {
+    const { world, session, socket } = begin();
+    socket.close();
+    world.pass(1000);
+    world.last.onopen?.();
+    world.last.say({ ...kHello, steady_ms: world.now });
+    world.last.say(kMission);
+    expect([session.isConnected.value, session.isLive.value]).toEqual([true, false]);
+    world.last.onmessage?.({ data: snapshotBytes(1, 2, false, world.now) });
+    expect(session.isLive.value).toBe(true);
+  });
+
+  it('With an old picture drones can be brought down, and nothing else; without a connection not even that', async () => {
+    const { world, session, socket, sent, editor } = begin();
+    const orders = new FleetOrders(session, editor);
+    world.pass(2000);
+    for (const order of kOrders) orders.to(order, 'all');
+    orders.landAll();
+    await settled();
+    expect(kOrders.filter((order) => sent(order).length > 0)).toEqual(['land']);
+    expect(sent('land_all')).toHaveLength(1);
+    expect([orders.may('land'), orders.may('hold')]).toEqual([true, false]);
+    socket.close();
+    expect([session.mayLand.value, orders.may('land')]).toEqual([false, false]);
+  });
+
+  it('An order to land that is not confirmed soon says so, until it is; one that never is becomes an alarm', async () => {
+    const { world, session, socket, sent, editor } = begin();
+    const orders = new FleetOrders(session, editor);
+    const texts = (): string[] => session.notices.value.map((notice) => notice.text);
+    orders.landAll();
+    world.pass(500);
+    expect(texts()).toEqual(['LAND ALL was sent; it is not confirmed yet.']);
+    socket.say({ type: 'ack', id: sent('land_all')[0]!['id'], tick: 1 });
+    await settled();
+    expect(texts()).toEqual(['LAND ALL: every drone comes down.']);
+    orders.landAll();
+    world.pass(5000);
+    await settled();
+    expect(session.notices.value).toMatchObject([{ kind: 'alarm' }]);
+    expect(texts()[0]).toMatch(/LAND ALL is not confirmed. No answer within 5 s/);
   });
 
   it.each([

@@ -9,6 +9,7 @@ export const kHello = {
   role: 'operator',
   roles: ['viewer', 'operator'],
   login: false,
+  steady_ms: 0,
 };
 
 /** A mission of two drones. */
