@@ -3,6 +3,7 @@
 import json
 import signal
 import struct
+import subprocess
 import sys
 import time
 import unittest
@@ -10,8 +11,8 @@ import urllib.error
 
 from console_client import WebSocket
 from ros_graph import (
-    HOME, PROGRAM, RUNNING, are, command, console, distance_m, drones, end_everything, fault, judge, publish, run_tests,
-    service, start, start_roscore, state, stop, until,
+    ENVIRONMENT, HOME, PROGRAM, RUNNING, are, command, console, distance_m, drones, end_everything, fault, judge, publish,
+    run_tests, service, start, start_roscore, state, stop, until,
 )  # fmt: skip
 
 ROOM = """
@@ -97,6 +98,15 @@ class TenDrones(unittest.TestCase):
         cls.ids = [f"cf{number}" for number in range(1, 11)]
         until(lambda: are("grounded", *cls.ids), 30, "ten drones on the ground")
 
+    def test_a_second_program_on_the_same_master_is_refused(self):
+        for way in ("--ros",), ("--fleet", "ros"):
+            second = subprocess.run(
+                [str(PROGRAM), "serve", str(HOME / "ten.yaml"), "--port", "0", *way],
+                env=ENVIRONMENT, capture_output=True, text=True, timeout=30, check=False)  # fmt: skip
+            self.assertEqual(second.returncode, 3, second)
+            self.assertIn("a ROS node of the name /vigil is alive", second.stderr)
+        self.assertTrue(are("grounded", *self.ids), drones())
+
     def test_half_of_all_velocities_follow_their_positions_within_ten_milliseconds(self):
         service("/vigil/take_off_all")
         until(lambda: are("active", *self.ids), 20, "ten drones cover")
@@ -174,6 +184,9 @@ class TwoDronesThatMeet(unittest.TestCase):
     def test_1_names_that_are_swapped_close_to_each_other_are_noticed(self):
         operator = WebSocket(int(console().rstrip("/").rsplit(":", 1)[1]))
         operator.hello()
+        fault("swap cf1 cf2")
+        self.assertIn("cf1 and cf2: the tracker takes", operator.wait_for_event("trouble")["text"])
+        fault("none")
         service("/vigil/take_off_all")
         until(lambda: are("active", "cf1", "cf2"), 15, "two drones cover")
         for apart_m in (0.36, 0.32, 0.28, 0.26):

@@ -7,6 +7,7 @@
 #include <memory>
 #include <mutex>
 #include <optional>
+#include <set>
 #include <thread>
 #include <utility>
 
@@ -156,9 +157,16 @@ class CrazyswarmLink final : public CrazyswarmPort {
     for (std::size_t i = 0; i < setup_.drones.size(); ++i) {
       positions_.push_back(node_.subscribe<geometry_msgs::TransformStamped>(
           vicon_topic(setup_.drones[i]), 1,
-          [this, i](const geometry_msgs::TransformStamped::ConstPtr& seen) { sightings_.add(i, *seen); },
-          ros::VoidConstPtr(), at_once));
+          [this, i](const geometry_msgs::TransformStamped::ConstPtr& seen) { take(i, *seen); }, ros::VoidConstPtr(),
+          at_once));
     }
+  }
+
+  void take(std::size_t drone, const geometry_msgs::TransformStamped& seen) {
+    const std::string& id = setup_.drones[drone];
+    const std::string complaint = complaint_of_frames(id, seen.header.frame_id, seen.child_frame_id);
+    if (complaint.empty()) return sightings_.add(drone, seen);
+    if (complained_of_.insert(drone).second) setup_.tell(id + ": not used: " + complaint);
   }
 
   void take(const tf2_msgs::TFMessage& seen) {
@@ -240,6 +248,7 @@ class CrazyswarmLink final : public CrazyswarmPort {
   ros::CallbackQueue queue_;
   ros::NodeHandle node_{"/"};
   std::vector<ros::Subscriber> positions_;
+  std::set<std::size_t> complained_of_;  ///< drones whose positions are of another frame; the spinner's
   std::vector<ros::Publisher> velocities_;
   std::vector<ros::Publisher> stops_;
   ros::AsyncSpinner spinner_{1, &queue_};

@@ -1,5 +1,6 @@
 #include "vigil/adapters/ros/mistaken_bodies.hpp"
 
+#include <algorithm>
 #include <cassert>
 #include <cmath>
 
@@ -29,8 +30,13 @@ bool is_in_the_place_of(const NamedBody& body, const NamedBody& other) {
   return is_there && distance(body.seen, other.expected) <= kSamePlaceM;
 }
 
-bool can_be_mistaken(const NamedBody& body, const NamedBody& other) {
-  return body.is_known && other.is_known && (body.is_airborne || other.is_airborne);
+bool are_on_the_ground(const NamedBody& body, const NamedBody& other) {
+  return !body.is_airborne && !other.is_airborne;
+}
+
+/// People carry drones over the ground, but no two to each other's places from one position to the next.
+bool can_have_been_carried(const NamedBody& body, const NamedBody& other) {
+  return are_on_the_ground(body, other) && std::max(body.unseen_s, other.unseen_s) > kFreshS;
 }
 
 }  // namespace
@@ -40,7 +46,7 @@ void MistakenBodies::judge(std::span<const NamedBody> bodies) noexcept {
   for (std::size_t i = 0; i < bodies.size(); ++i) {
     if (!bodies[i].is_timely) continue;
     std::optional<std::size_t>& other = taken_for_[i];
-    const bool goes_on = other && can_be_mistaken(bodies[i], bodies[*other]) && is_like(bodies[i], bodies[*other]);
+    const bool goes_on = other && is_like(bodies[i], bodies[*other]);
     if (!goes_on) other = whose(bodies, i);
   }
 }
@@ -50,9 +56,9 @@ std::optional<std::size_t> MistakenBodies::whose(std::span<const NamedBody> bodi
   if (!body.is_known || own_error(body) <= kErrorM) return std::nullopt;  // nearly always
   for (std::size_t i = 0; i < bodies.size(); ++i) {
     const NamedBody& other = bodies[i];
-    if (i == drone || !can_be_mistaken(body, other) || !is_like(body, other)) continue;
+    if (i == drone || !other.is_known || can_have_been_carried(body, other) || !is_like(body, other)) continue;
     const bool is_swapped = other.is_timely && is_like(other, body);
-    if (is_swapped || is_in_the_place_of(body, other)) return i;
+    if (is_swapped || (!are_on_the_ground(body, other) && is_in_the_place_of(body, other))) return i;
   }
   return std::nullopt;
 }

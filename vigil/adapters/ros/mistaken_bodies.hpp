@@ -11,12 +11,12 @@ namespace vigil::ros_bridge {
 
 /// One drone, as far as a tracker's names are concerned. World frame, metres.
 struct NamedBody {
-  bool is_known = false;     ///< it has been seen: `expected` means something
-  bool is_timely = false;    ///< the newest position under its name is worth a look
-  bool is_airborne = false;  ///< those on the ground may be carried anywhere
-  double unseen_s = 0.0;     ///< since one of its positions was last believed
-  Point expected;            ///< where its flight has led it by the time of the newest position
-  Point seen;                ///< the newest position under its name, believed or not
+  bool is_known = false;   ///< it has been seen: `expected` means something
+  bool is_timely = false;  ///< the newest position under its name is worth a look
+  bool is_airborne = false;
+  double unseen_s = 0.0;  ///< since one of its positions was last believed
+  Point expected;         ///< where its flight has led it by the time of the newest position
+  Point seen;             ///< the newest position under its name, believed or not
 };
 
 /// Which drones a tracker takes for another one. A position is like another drone's where it lies nearer to the place
@@ -27,7 +27,9 @@ struct NamedBody {
 ///   only one of two new names has arrived, while one of the bodies has no name at all, or where more than two go
 ///   round,
 ///
-/// and from then on for as long as it is like it. A value; judge() allocates nothing.
+/// and from then on for as long as it is like it. Of two on the ground only the first is asked, and only where both
+/// were believed a tenth of a second ago: they may be carried anywhere, but not as fast. A value; judge() allocates
+/// nothing.
 class MistakenBodies {
  public:
   explicit MistakenBodies(std::size_t drones) : taken_for_(drones) {}

@@ -85,13 +85,38 @@ TEST(MistakenBodies, Who_was_mistaken_remains_so_until_it_is_seen_in_its_own_pla
   EXPECT_EQ(mistaken.taken_for(0), std::nullopt);
 }
 
-TEST(MistakenBodies, Drones_on_the_ground_may_change_places) {
+TEST(MistakenBodies, Drones_on_the_ground_that_nobody_saw_for_a_moment_may_have_been_carried) {
   auto bodies = seen_at({{0.0, 0.0, 0.0}, {0.3, 0.0, 0.0}});
   std::swap(bodies[0].seen, bodies[1].seen);
   for (NamedBody& body : bodies) body.is_airborne = false;
+  bodies[0].unseen_s = 0.2;
   EXPECT_EQ(judged(bodies, 0), std::nullopt);
   bodies[1].is_airborne = true;
   EXPECT_EQ(judged(bodies, 0), 1U);
+}
+
+TEST(MistakenBodies, Drones_on_the_ground_that_change_places_at_once_have_swapped_names_until_they_change_back) {
+  auto bodies = seen_at({{0.0, 0.0, 0.0}, {0.3, 0.0, 0.0}});
+  for (NamedBody& body : bodies) body.is_airborne = false;
+  MistakenBodies mistaken(2);
+  std::swap(bodies[0].seen, bodies[1].seen);
+  for (const double unseen_s : {0.02, 0.5, 60.0}) {
+    for (NamedBody& body : bodies) body.unseen_s = unseen_s;
+    mistaken.judge(bodies);
+    EXPECT_EQ(mistaken.taken_for(0), 1U);
+    EXPECT_EQ(mistaken.taken_for(1), 0U);
+  }
+  std::swap(bodies[0].seen, bodies[1].seen);
+  mistaken.judge(bodies);
+  EXPECT_EQ(mistaken.taken_for(0), std::nullopt);
+  EXPECT_EQ(mistaken.taken_for(1), std::nullopt);
+}
+
+TEST(MistakenBodies, One_on_the_ground_that_is_put_where_another_stood_is_carried) {
+  auto bodies = seen_at({{0.0, 0.0, 0.0}, {0.3, 0.0, 0.0}});
+  for (NamedBody& body : bodies) body.is_airborne = false;
+  bodies[0].seen = {0.3, 0.0, 0.0};
+  EXPECT_EQ(judged(bodies, 0), std::nullopt);
 }
 
 TEST(MistakenBodies, What_was_never_seen_is_mistaken_for_nobody) {

@@ -16,13 +16,8 @@ bool is_same(const Point& a, const Point& b) { return a.x == b.x && a.y == b.y &
 
 double distance(const Point& a, const Point& b) { return std::hypot(a.x - b.x, a.y - b.y, a.z - b.z); }
 
-/// The stamp where it makes sense: not from the future (but for clocks that differ by a little), not from another day.
-double sane_stamp(const Sighting& sighting) {
-  constexpr double kAhead = 0.05;
-  constexpr double kBehind = 10.0;
-  const double age = sighting.received_s - sighting.measured_s;
-  return age >= -kAhead && age <= kBehind ? std::min(sighting.measured_s, sighting.received_s) : sighting.received_s;
-}
+/// The stamp, but for one from the future: then the clocks differ, and it is of now as far as is known.
+double sane_stamp(const Sighting& sighting) { return std::min(sighting.measured_s, sighting.received_s); }
 
 }  // namespace
 

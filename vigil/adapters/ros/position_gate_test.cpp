@@ -110,12 +110,21 @@ TEST(PositionGate, A_position_is_as_old_as_its_stamp) {
   EXPECT_NEAR(gate.age_s(tracker.now_s()), 0.04, 1e-9);
 }
 
-TEST(PositionGate, A_stamp_that_makes_no_sense_counts_as_now) {
-  for (const double late_s : {-5.0, 1e6, 999.0}) {
+TEST(PositionGate, A_stamp_from_the_future_counts_as_now) {
+  for (const double ahead_s : {0.01, 5.0, 1e6}) {
     PositionGate gate(kParameters);
     Tracker tracker;
-    EXPECT_EQ(gate.look(tracker.at({0.0, 0.0, 0.5}, late_s), true), Verdict::kBelieved);
+    EXPECT_EQ(gate.look(tracker.at({0.0, 0.0, 0.5}, -ahead_s), true), Verdict::kBelieved);
     EXPECT_NEAR(gate.age_s(tracker.now_s()), 0.0, 1e-9);
+  }
+}
+
+TEST(PositionGate, A_stamp_far_behind_is_late_and_no_sign_of_another_clock) {
+  for (const double behind_s : {9.0, 11.0, 60.0, 1e6}) {
+    PositionGate gate(kParameters);
+    Tracker tracker;
+    EXPECT_EQ(gate.look(tracker.at({0.0, 0.0, 0.5}, behind_s), true), Verdict::kLate);
+    EXPECT_FALSE(gate.has_seen());
   }
 }
 

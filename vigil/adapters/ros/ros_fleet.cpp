@@ -33,6 +33,8 @@ PhaseParameters phase_parameters(const runtime::Mission& mission) {
 
 RosFleet::RosFleet(const runtime::Mission& mission, std::unique_ptr<CrazyswarmPort> port)
     : world_(runtime::world_frame(mission)),
+      field_m_(mission.field.size_m),
+      margin_m_(mission.safety.wall_distance_m),
       altitude_m_(mission.simulation.vehicle.altitude_m),
       port_(std::move(port)),
       drones_(mission.drones.size(),
@@ -98,9 +100,18 @@ void RosFleet::order(runtime::MissionTime /*now*/, std::span<const swarm::DroneO
 void RosFleet::order(std::size_t index, double now_s, const swarm::DroneOrder& order) noexcept {
   Drone& drone = drones_[index];
   drone.phase.answered(port_->answer(index), now_s);
-  const std::optional<VehicleCall> call = drone.phase.call_for(order.action, drone.gate.age_s(now_s), now_s);
+  const bool may_stay = order.action == swarm::Action::kStopMotors || !has_left(drone);
+  const swarm::Action action = may_stay ? order.action : swarm::Action::kLand;
+  const std::optional<VehicleCall> call = drone.phase.call_for(action, drone.gate.age_s(now_s), now_s);
   if (call && port_->call(index, *call)) drone.phase.called(*call, now_s);
   port_->set(index, setpoint(index, now_s, order));
+}
+
+/// Whether it flies where no order can have sent it: it may be another one's body, or follow nobody.
+bool RosFleet::has_left(const Drone& drone) const noexcept {
+  if (drone.phase.mode() != VehicleMode::kFlying || !drone.gate.has_seen()) return false;
+  const Vec2 place = world_.point_to_field({drone.gate.place().x, drone.gate.place().y});
+  return (place.array() < -margin_m_).any() || ((place - field_m_).array() > margin_m_).any();
 }
 
 /// A drone that flies always has one: what is ordered, or a hover, or straight down.

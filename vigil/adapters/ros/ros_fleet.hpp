@@ -17,7 +17,8 @@ namespace vigil::ros_bridge {
 
 /// Crazyflies behind the Fleet port. What a drone is told in flight never pauses and never jumps because of a position:
 /// a position that is not believed (PositionGate) is none, and a drone that is not seen is told to hover, and after
-/// PhaseParameters::land_unseen_s to land. One that is taken for another (MistakenBodies) hovers at once. Height is
+/// PhaseParameters::land_unseen_s to land. One that is seen farther outside of the field than its walls' distance is
+/// landed. One that is taken for another (MistakenBodies) hovers at once. Height is
 /// kept here; the tick knows the plane alone. The control thread's.
 class RosFleet final : public runtime::Fleet {
  public:
@@ -39,10 +40,13 @@ class RosFleet final : public runtime::Fleet {
   void look(double now_s) noexcept;
   void tell_of_the_mistaken() noexcept;
   void observe(std::size_t index, double now_s, swarm::DroneObservation& out) noexcept;
+  [[nodiscard]] bool has_left(const Drone& drone) const noexcept;
   void order(std::size_t index, double now_s, const swarm::DroneOrder& order) noexcept;
   [[nodiscard]] Setpoint setpoint(std::size_t index, double now_s, const swarm::DroneOrder& order) const noexcept;
 
   field::WorldFrame world_;
+  Vec2 field_m_;
+  double margin_m_;  ///< a drone this far outside is landed
   double altitude_m_;
   std::unique_ptr<CrazyswarmPort> port_;
   std::vector<Drone> drones_;

@@ -168,6 +168,23 @@ TEST_F(RosFleetTest, In_flight_every_tick_streams_whatever_is_ordered) {
   }
 }
 
+TEST_F(RosFleetTest, A_drone_that_is_seen_farther_outside_the_field_than_the_walls_distance_is_landed) {
+  fly();
+  wire_->answers = Answer::kWaiting;
+  const double edge_m = -1.5 - mission_.safety.wall_distance_m;
+  while (place_.x > edge_m + 0.01) {
+    tick(Action::kVelocity, {-0.2, 0.0});
+    place_.x -= 0.2 * kTick;
+  }
+  EXPECT_EQ(count(VehicleCall::kLand), 0);
+  EXPECT_EQ(setpoint().velocity_m_s.x, -0.2);
+  place_.x = edge_m - 0.01;
+  tick(Action::kVelocity, {-0.2, 0.0});
+  EXPECT_EQ(count(VehicleCall::kLand), 1);
+  EXPECT_TRUE(setpoint().is_streamed);
+  EXPECT_EQ(setpoint().velocity_m_s.x, 0.0);
+}
+
 TEST_F(RosFleetTest, A_drone_that_is_not_seen_hovers_and_then_lands) {
   fly();
   ticks(1.0, Action::kVelocity, {0.2, 0.0}, false);

@@ -163,6 +163,14 @@ TEST(RosName, Two_ids_of_one_ROS_name_are_complained_of_by_both_names) {
   EXPECT_NE(complaint_of_names({"1", "d1"}), "");
 }
 
+TEST(RosName, Positions_are_of_the_drone_and_in_the_world_by_the_last_parts_of_their_frames) {
+  for (const char* const child : {"cf-1", "cf_1", "/cf_1", "vicon/cf_1/cf_1"})
+    EXPECT_EQ(complaint_of_frames("cf-1", "/world", child), "");
+  EXPECT_NE(complaint_of_frames("cf-1", "map", "cf_1").find("\"map\" instead of \"world\""), std::string::npos);
+  for (const char* const child : {"", "cf_2", "vicon/cf_1/cf_2"})
+    EXPECT_NE(complaint_of_frames("cf-1", "world", child), "");
+}
+
 TEST(RosName, Is_one_that_ROS_accepts) {
   EXPECT_EQ(ros_name("cf1"), "cf1");
   EXPECT_EQ(ros_name("7 of 9"), "d7_of_9");

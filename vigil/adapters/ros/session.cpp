@@ -21,7 +21,8 @@
 namespace vigil::ros_bridge {
 namespace {
 
-constexpr auto kLookEvery = std::chrono::seconds(1);
+constexpr auto kLookEvery = std::chrono::milliseconds(100);
+constexpr int kLooksAMaster = 10;
 
 /// Of roscore: another one for each time it starts. Empty: nobody answers.
 std::string master_run() {
@@ -34,6 +35,36 @@ std::string master_run() {
   return payload.getType() == XmlRpc::XmlRpcValue::TypeString ? std::string(payload) : std::string();
 }
 
+/// Where the master knows a node of this one's name, which may have died without a word; empty: it knows none.
+std::string namesake() {
+  XmlRpc::XmlRpcValue request;
+  XmlRpc::XmlRpcValue response;
+  XmlRpc::XmlRpcValue payload;
+  request[0] = ros::this_node::getName();
+  request[1] = ros::this_node::getName();
+  if (!ros::master::execute("lookupNode", request, response, payload, false)) return {};
+  return payload.getType() == XmlRpc::XmlRpcValue::TypeString ? std::string(payload) : std::string();
+}
+
+bool answers(const std::string& uri) {
+  std::string host;
+  std::uint32_t port = 0;
+  if (!ros::network::splitURI(uri, host, port)) return false;
+  XmlRpc::XmlRpcValue request;
+  XmlRpc::XmlRpcValue response;
+  request[0] = ros::this_node::getName();
+  XmlRpc::XmlRpcClient client(host.c_str(), static_cast<int>(port), "/");
+  return client.execute("getPid", request, response);
+}
+
+/// A master lets the newest node of a name take the place of the one before, which is deaf from then on.
+void refuse_a_second_one() {
+  const std::string uri = namesake();
+  if (!uri.empty() && answers(uri))
+    throw RosError("a ROS node of the name " + ros::this_node::getName() + " is alive at " + uri +
+                   ", and would be cut off by this one; end it first, or use another ROS master");
+}
+
 void start_node(const std::string& node) {
   if (!ros::isInitialized())
     ros::init(ros::M_string(), node, ros::init_options::NoSigintHandler | ros::init_options::NoRosout);
@@ -42,6 +73,7 @@ void start_node(const std::string& node) {
   if (!ros::master::check())
     throw RosError("no ROS master answers at " + ros::master::getURI() +
                    "; start roscore there, set ROS_MASTER_URI to where it is, or start all by ./run --with-ros");
+  refuse_a_second_one();
   // roscpp writes what is published, and reads what comes, on threads of its own, which it starts here.
   runtime::start_with_real_time_priority(ros::start);
 }
@@ -76,6 +108,20 @@ class Session::Watch {
   }
 
   void look() {
+    look_at_node();
+    if (looks_++ % kLooksAMaster == 0 && ros::ok()) look_at_master();
+  }
+
+  void look_at_node() {
+    if (ros::ok() || is_shut_down_) return;
+    is_shut_down_ = true;
+    tell_(
+        "ROS has shut this program's node down: another node took its name, or somebody ended it. Nothing is sent or "
+        "heard "
+        "any more: drones in the air level after half a second and fall after two. Start the program again");
+  }
+
+  void look_at_master() {
     const std::string run = master_run();
     if (run.empty() && !is_gone_) tell_("the ROS master does not answer; connections that are there go on without it");
     is_gone_ = run.empty();
@@ -88,6 +134,8 @@ class Session::Watch {
   std::function<void(const std::string&)> tell_;
   std::string run_;
   bool is_gone_ = false;
+  bool is_shut_down_ = false;
+  int looks_ = 1;
   std::mutex mutex_;
   std::condition_variable over_;
   bool is_over_ = false;

@@ -7,7 +7,7 @@
 
 namespace vigil::ros_bridge {
 
-/// This program was built without ROS, or no ROS master answers.
+/// This program was built without ROS, no ROS master answers, or it knows another node of this name that is alive.
 class RosError : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
@@ -19,8 +19,8 @@ class RosError : public std::runtime_error {
 /// for it once a second, registers everything again, and learns who else is there, while all connections stay.
 class Session {
  public:
-  /// `tell`: told in words when the master goes and when it is back; on the session's thread. Throws RosError where no
-  /// master answers.
+  /// `tell`: told in words when the master goes and when it is back, and when somebody shuts this node down; on the
+  /// session's thread. Throws RosError where no master answers, or a node of this name is alive.
   Session(const std::string& node, std::function<void(const std::string&)> tell);
   ~Session();
   Session(const Session&) = delete;
