@@ -126,7 +126,11 @@ class CrazyswarmLink final : public CrazyswarmPort {
   [[nodiscard]] Answer answer(std::size_t drone) noexcept override { return services_[drone]->answer(); }
 
   [[nodiscard]] bool tell_mistaken(std::size_t drone, std::size_t other) noexcept override {
-    return queue({drone, other});
+    return queue({drone, other, nullptr, true});
+  }
+
+  [[nodiscard]] bool tell_refused(std::size_t drone, const char* why) noexcept override {
+    return queue({drone, drone, why, false});
   }
 
  private:
@@ -134,6 +138,8 @@ class CrazyswarmLink final : public CrazyswarmPort {
   struct Errand {
     std::size_t drone = 0;
     std::size_t mistaken_for = 0;
+    const char* why_refused = nullptr;  ///< null: positions are used again
+    bool is_mistaken = false;           ///< otherwise positions are refused, or used again
   };
 
   [[nodiscard]] bool queue(const Errand& errand) noexcept {
@@ -238,6 +244,8 @@ class CrazyswarmLink final : public CrazyswarmPort {
 
   void run(const Errand& errand) {
     const std::string& id = setup_.drones[errand.drone];
+    if (!errand.is_mistaken && errand.why_refused == nullptr) return setup_.tell(id + ": positions are used again");
+    if (!errand.is_mistaken) return setup_.tell(id + ": positions come and are not used: " + errand.why_refused);
     setup_.tell(id + " and " + setup_.drones[errand.mistaken_for] +
                 ": the tracker takes one for the other; who was mistaken hovers until it is seen in its own place, and "
                 "lands after five seconds");

@@ -56,6 +56,10 @@ class CrazyswarmPort {
   /// Tells operators that the tracker takes one of two drones for the other; false where it could not be passed on now.
   [[nodiscard]] virtual bool tell_mistaken(std::size_t drone, std::size_t other) noexcept = 0;
 
+  /// Tells operators why a drone's positions are not used, or (null) that they are again; false where it could not be
+  /// passed on now. `why` lives for ever.
+  [[nodiscard]] virtual bool tell_refused(std::size_t drone, const char* why) noexcept = 0;
+
   static constexpr double kStandsForS = 0.25;
 };
 

@@ -9,11 +9,34 @@ namespace vigil::ros_bridge {
 namespace {
 
 using swarm::VehicleMode;
+using Verdict = PositionGate::Verdict;
 
 // How height is kept: as fast as it is wrong, but no faster than this.
 constexpr double kHeightGainPerS = 1.0;
 constexpr double kClimbLimit = 0.3;  ///< m/s
 constexpr double kFreshS = 0.5;
+
+/// In words; null where the position is used.
+const char* refusal(Verdict verdict) {
+  switch (verdict) {
+    case Verdict::kNothingNew:
+    case Verdict::kBelieved:
+      return nullptr;
+    case Verdict::kLate:
+      return "their stamps are more than 0.15 s old; are all machines' clocks set, and is the network slow?";
+    case Verdict::kOlder:
+      return "they were measured before ones that are known; do two trackers send them?";
+    case Verdict::kFrozen:
+      return "they repeat themselves; has the tracker stopped?";
+    case Verdict::kAnothers:
+      return "they are of another drone's body; compare names and bodies in the tracker";
+    case Verdict::kJumped:
+      return "they are farther away than it can have flown; is it the right body?";
+    case Verdict::kNotANumber:
+      return "they are not numbers; does the tracker see it?";
+  }
+  return nullptr;
+}
 
 GateParameters gate_parameters(const runtime::Mission& mission) {
   GateParameters parameters;
@@ -62,8 +85,23 @@ void RosFleet::look(double now_s) noexcept {
   }
   mistaken_.judge(bodies_);
   tell_of_the_mistaken();
-  for (std::size_t i = 0; i < drones_.size(); ++i)
-    drones_[i].gate.look(drones_[i].newest, drones_[i].phase.flies(), mistaken_.taken_for(i).has_value());
+  for (std::size_t i = 0; i < drones_.size(); ++i) {
+    Drone& drone = drones_[i];
+    const Verdict verdict = drone.gate.look(drone.newest, drone.phase.flies(), mistaken_.taken_for(i).has_value());
+    if (verdict != Verdict::kNothingNew) drone.refusal = refusal(verdict);
+  }
+  tell_of_the_refused(now_s);
+}
+
+/// Of those who have not been seen for a while: single positions are refused every now and then.
+void RosFleet::tell_of_the_refused(double now_s) noexcept {
+  for (std::size_t i = 0; i < drones_.size(); ++i) {
+    Drone& drone = drones_[i];
+    const bool is_lost = drone.gate.age_s(now_s) > kFreshS;
+    const char* const now = is_lost ? drone.refusal : nullptr;
+    if (now == drone.told_refusal || (is_lost && now == nullptr)) continue;
+    if (port_->tell_refused(i, now)) drone.told_refusal = now;
+  }
 }
 
 /// Once for two that are taken for each other.

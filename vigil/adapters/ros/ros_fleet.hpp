@@ -35,10 +35,13 @@ class RosFleet final : public runtime::Fleet {
     double heard_s = -1.0;  ///< when Crazyswarm last listened; below 0: never
     Sighting newest = {};
     std::optional<std::size_t> told_of = std::nullopt;  ///< for whom it is taken, as operators were told last
+    const char* refusal = nullptr;                      ///< why its newest position was not used; null: it was
+    const char* told_refusal = nullptr;                 ///< as operators were told last
   };
 
   void look(double now_s) noexcept;
   void tell_of_the_mistaken() noexcept;
+  void tell_of_the_refused(double now_s) noexcept;
   void observe(std::size_t index, double now_s, swarm::DroneObservation& out) noexcept;
   [[nodiscard]] bool has_left(const Drone& drone) const noexcept;
   void order(std::size_t index, double now_s, const swarm::DroneOrder& order) noexcept;

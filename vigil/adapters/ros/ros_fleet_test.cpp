@@ -206,6 +206,28 @@ TEST_F(RosFleetTest, A_drone_that_is_seen_again_in_time_flies_on) {
   EXPECT_EQ(count(VehicleCall::kLand), 0);
 }
 
+TEST_F(RosFleetTest, Operators_are_told_why_positions_are_not_used_and_once_they_are_again) {
+  fly();
+  EXPECT_TRUE(wire_->refused.empty());
+  place_.x += 2.0;
+  ticks(0.4, Action::kVelocity);
+  EXPECT_TRUE(wire_->refused.empty());
+  ticks(2.0, Action::kVelocity);
+  ASSERT_EQ(wire_->refused.size(), seen_.size());
+  EXPECT_EQ(wire_->refused[0].first, 0U);
+  EXPECT_NE(wire_->refused[0].second.find("farther away"), std::string::npos);
+  place_.x -= 2.0;
+  ticks(0.2, Action::kVelocity);
+  ASSERT_EQ(wire_->refused.size(), 2 * seen_.size());
+  EXPECT_EQ(wire_->refused.back().second, "");
+}
+
+TEST_F(RosFleetTest, Nothing_is_told_of_a_tracker_that_is_silent) {
+  fly();
+  ticks(3.0, Action::kVelocity, Vec2::Zero(), false);
+  EXPECT_TRUE(wire_->refused.empty());
+}
+
 TEST_F(RosFleetTest, Two_drones_that_swap_their_names_are_not_steered_by_them) {
   fly();
   place_.x += 2.0;

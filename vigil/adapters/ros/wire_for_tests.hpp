@@ -1,5 +1,6 @@
 #pragma once
 
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -28,6 +29,11 @@ class Wire final : public CrazyswarmPort {
     return true;
   }
 
+  [[nodiscard]] bool tell_refused(std::size_t drone, const char* why) noexcept override {
+    refused.emplace_back(drone, why == nullptr ? "" : why);
+    return true;
+  }
+
   void see(std::size_t drone, Point place) {
     place.z += 1e-6 * static_cast<double>(sightings[drone].number % 2);  // no tracker sees the same twice
     sightings[drone] = {place, time_s, time_s, sightings[drone].number + 1};
@@ -40,7 +46,8 @@ class Wire final : public CrazyswarmPort {
   std::vector<Sighting> sightings;
   std::vector<Setpoint> setpoints;
   std::vector<std::pair<std::size_t, VehicleCall>> calls;
-  std::vector<std::pair<std::size_t, std::size_t>> told;  ///< who is taken for whom
+  std::vector<std::pair<std::size_t, std::string>> refused;  ///< and why; empty: no longer
+  std::vector<std::pair<std::size_t, std::size_t>> told;     ///< who is taken for whom
 };
 
 }  // namespace vigil::ros_bridge
