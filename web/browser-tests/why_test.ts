@@ -93,6 +93,8 @@ describe('why, in a recording', () => {
     const why = await printed('cf7', kAtS);
     expect(why.rows.some((row) => row.holds)).toBe(true);
     await expectShown(why);
+    await rows().scrollIntoViewIfNeeded();
+    expect(await page.evaluate(() => document.documentElement.scrollHeight - window.innerHeight)).toBe(0);
     expect(await answer().locator('p').first().textContent()).toMatch(/ by drone cf\d+, [\d.]+ m away/);
     await keepPicture(page, 'why_recorded');
     await page.getByRole('button', { name: 'One tick on' }).click();
