@@ -19,6 +19,7 @@
 #include "vigil/apps/results_folder.hpp"
 #include "vigil/apps/ros_side.hpp"
 #include "vigil/runtime/controller_setup.hpp"
+#include "vigil/runtime/event_words.hpp"
 #include "vigil/runtime/live_mission.hpp"
 #include "vigil/runtime/mission_error.hpp"
 #include "vigil/runtime/mission_file.hpp"
@@ -62,8 +63,17 @@ std::unique_ptr<runtime::QueuedRecorder> recorder_for(const runtime::Mission& mi
 
 std::vector<DroneStart> starts_of(const runtime::SavedFlight& saved) {
   std::vector<DroneStart> starts;
-  for (const runtime::SavedFlight::Drone& drone : saved.drones) starts.push_back({drone.place_m, drone.is_down});
+  for (const runtime::SavedFlight::Drone& drone : saved.drones) {
+    const bool has_no_motors = drone.order == swarm::Intent::kEmergencyStop;
+    starts.push_back({drone.place_m, drone.is_down || has_no_motors});
+  }
   return starts;
+}
+
+std::vector<swarm::Intent> standing_of(const runtime::SavedFlight& saved) {
+  std::vector<swarm::Intent> standing;
+  for (const runtime::SavedFlight::Drone& drone : saved.drones) standing.push_back(drone.order);
+  return standing;
 }
 
 /// `saved`: what an earlier run left, or null. `ros`: there where the fleet is "ros".
@@ -73,6 +83,7 @@ std::shared_ptr<runtime::LiveMission> make_flight(const runtime::Mission& missio
   runtime::FlightStart start{runtime::first_intent(mission), {}};
   // After a restart the drones hover until somebody has looked, and resumes.
   if (saved != nullptr) start.first_intent = swarm::Intent::kHold;
+  if (saved != nullptr) start.standing = standing_of(*saved);
   if (saved != nullptr && saved->past.ticks > 0) start.past = saved->past;
   if (options.fleet == "ros") {
     // What stands there stays down until somebody lets it take off; what is in the air is somebody else's.
@@ -130,7 +141,7 @@ void announce(const ServeOptions& options, const std::string& mission, const std
   warn_of_readers(options.console);
   if (!ticks_may_come_first())
     fmt::print("vigil: without real-time priority ticks begin late on a busy machine; `ulimit -r 1` would allow it\n");
-  if (is_restored) fmt::print("vigil: goes on where it was; drones in the air hold until somebody resumes them\n");
+  if (is_restored) fmt::print("vigil: goes on where it was; {}\n", runtime::after_restart(options.fleet == "ros"));
   std::fflush(stdout);
 }
 

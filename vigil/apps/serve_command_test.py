@@ -435,6 +435,43 @@ class Restart(unittest.TestCase):
                     self.assertEqual(client.ask(type="edit", id=1, based_on=revision, edits=[edit])["type"], "ack")
                     program.kill()
 
+    def test_an_order_that_was_acknowledged_survives_a_kill_right_after_it(self):
+        with tempfile.TemporaryDirectory() as folder:
+            orders = [("mark_failed", "cf1", "marked_failed"), ("emergency_stop", "cf2", "emergency_stop"),
+                      ("land", "cf3", "grounded")]
+            for number, (order, drone, _) in enumerate(orders):
+                with paper("--state", folder) as program:
+                    client = WebSocket(program.port)
+                    client.hello()
+                    if number == 0:
+                        client.snapshot()
+                    self.assertEqual(client.ask(type=order, id=1, drones=[drone])["type"], "ack")
+                    program.kill()
+            with paper("--state", folder) as program:
+                client = WebSocket(program.port)
+                client.hello()
+                client.ask(type="set_speed", id=1, factor=20)
+                client.wait_for_event("grounded", "cf3")
+                began = client.snapshot()["tick"]
+                while client.snapshot()["tick"] < began + 1000:
+                    pass
+                _, state = program.json("GET", "/api/state")
+                self.assertEqual([one["activity"] for one in state["drones"]], [after for _, _, after in orders])
+
+    def test_after_land_all_and_a_kill_every_drone_comes_down(self):
+        with tempfile.TemporaryDirectory() as folder:
+            with paper("--state", folder) as program:
+                client = WebSocket(program.port)
+                client.hello()
+                client.snapshot()
+                self.assertEqual(client.ask(type="land_all", id=1)["type"], "ack")
+                program.kill()
+            with paper("--state", folder) as program:
+                client = WebSocket(program.port)
+                client.hello()
+                for drone in ["cf1", "cf2", "cf3"]:
+                    client.wait_for_event("grounded", drone)
+
     def test_who_knows_the_address_can_ask_for_the_state(self):
         for _ in range(5):
             with paper() as program:

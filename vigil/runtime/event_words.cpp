@@ -83,6 +83,14 @@ EventWords words_for(std::string_view id, Activity after, const swarm::DroneSnap
   return {Severity::kInfo, fmt::format("{} is healthy again", id), "it covers in a moment", ""};
 }
 
+std::string_view after_restart(bool has_real_drones) {
+  if (has_real_drones)
+    return "drones in the air count as overridden and are not steered until they were seen on the ground; an emergency "
+           "stop reaches them; nothing takes off by itself";
+  return "drones in the air hold until somebody resumes them; who was landing lands, who was marked failed, overridden "
+         "or had its motors stopped stays so; nothing takes off by itself";
+}
+
 std::string refusal_words(std::string_view id, CommandKind wish, const swarm::DroneSnapshot& drone) {
   const bool is_down = drone.mode == VehicleMode::kGrounded;
   if (drone.mode == VehicleMode::kUnknown) return fmt::format("{} was never heard of", id);

@@ -25,6 +25,9 @@ struct EventWords {
 [[nodiscard]] EventWords words_for(std::string_view id, swarm::Activity after, const swarm::DroneSnapshot& drone,
                                    std::size_t active, std::size_t drones);
 
+/// What drones do once a program that died is started again with its state.
+[[nodiscard]] std::string_view after_restart(bool has_real_drones);
+
 /// Why a drone in this state could not do what somebody wished: "cf2 is in the air; only a drone on the ground takes
 /// off".
 [[nodiscard]] std::string refusal_words(std::string_view id, swarm::CommandKind wish,

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <optional>
+#include <vector>
 
 #include "vigil/swarm/activity.hpp"
 #include "vigil/swarm/tick.hpp"
@@ -11,6 +12,8 @@ namespace vigil::runtime {
 struct FlightStart {
   swarm::Intent first_intent = swarm::Intent::kStayDown;
   std::optional<swarm::SwarmPast> past;  ///< of an earlier run of the program
+  /// The orders that stood when that ended, one per drone; empty: none. See StandingOrders.
+  std::vector<swarm::Intent> standing{};
 };
 
 }  // namespace vigil::runtime

@@ -25,6 +25,7 @@ LiveFlight::LiveFlight(const Mission& mission, Fleet& fleet, VirtualFleet* world
       world_(world),
       recorder_(recorder),
       state_(swarm_parameters(mission, start.first_intent)),
+      standing_(start.standing),
       observations_(mission.drones.size()),
       orders_(mission.drones.size()) {
   commands_.reserve((kScriptEventsATick + 2) * mission.drones.size() + 64);
@@ -65,12 +66,17 @@ void LiveFlight::play_script(double time_s, Outbox<LiveEvent>& outbox) noexcept 
 }
 
 void LiveFlight::gather(std::span<const LiveCommand> commands) noexcept {
+  standing_.give(observations_, commands_);
   script_commands_ = commands_.size();
   for (const LiveCommand& command : commands) {
     assert(command.kind == LiveCommand::Kind::kSwarm);
     if (commands_.size() == commands_.capacity()) return;
     commands_.push_back(command.swarm);
     if (command.swarm.kind == CommandKind::kSetTarget) revision_ = command.revision;
+    if (concerns_drones(command.swarm.kind)) {
+      standing_.replaced_by(command.swarm);
+      newest_order_ = std::max(newest_order_, command.ticket);
+    }
     // In a simulated world the pilot who gives a drone back is the one at the console.
     if (command.swarm.kind == CommandKind::kGiveBack && command.swarm.drone && world_ != nullptr)
       world_->give_back(*command.swarm.drone);
@@ -150,6 +156,8 @@ void LiveFlight::step(std::span<const LiveCommand> commands, LiveFrame& out, Out
   state_.write_past(out.past);
   out.c_k.resize(state_.basis().indices_per_axis(), state_.basis().indices_per_axis());
   state_.statistics().average(out.c_k);
+  for (std::size_t i = 0; i < out.intents.size(); ++i) out.intents[i] = standing_.intent_of(i, state_.drones()[i]);
+  out.newest_order = newest_order_;
   out.revision = revision_;
   out.has_ticked = true;
 }

@@ -12,6 +12,7 @@
 #include "vigil/runtime/goal_script.hpp"
 #include "vigil/runtime/hand_over.hpp"
 #include "vigil/runtime/live_frame.hpp"
+#include "vigil/runtime/standing_orders.hpp"
 #include "vigil/swarm/tick.hpp"
 
 namespace vigil::runtime {
@@ -85,11 +86,13 @@ class LiveFlight {
   std::optional<GoalScript> goals_;
   std::optional<swarm::Snapshot> last_;  ///< of the tick before, where there are goals
   std::optional<FlightAudit> audit_;
+  StandingOrders standing_;
   std::uint64_t revision_ = 0;
+  std::uint64_t newest_order_ = 0;
   std::vector<swarm::DroneObservation> observations_;
   std::vector<swarm::DroneOrder> orders_;
-  std::vector<swarm::Command> commands_;  ///< of this tick: the script's, then the operators'
-  std::size_t script_commands_ = 0;       ///< how many of them are the script's
+  std::vector<swarm::Command> commands_;  ///< of this tick: the script's, those of standing_, then the operators'
+  std::size_t script_commands_ = 0;       ///< how many of them nobody here asked for: the script's and standing_'s
 };
 
 }  // namespace vigil::runtime

@@ -2,6 +2,7 @@
 
 #include <chrono>
 #include <cstdint>
+#include <vector>
 
 #include "vigil/core/ergodic/basis.hpp"
 #include "vigil/runtime/lateness.hpp"
@@ -12,11 +13,13 @@ namespace vigil::runtime {
 
 /// All that one tick of a live flight shows to others. Sized once.
 struct LiveFrame {
-  explicit LiveFrame(std::size_t drones) : snapshot(drones) {}
+  explicit LiveFrame(std::size_t drones) : snapshot(drones), intents(drones, swarm::Intent::kStayDown) {}
 
   swarm::Snapshot snapshot;
   swarm::SwarmPast past;                    ///< after the tick
   ergodic::Coefficients c_k;                ///< achieved coverage, 1/m
+  std::vector<swarm::Intent> intents;       ///< after the tick: the orders that stand, one per drone
+  std::uint64_t newest_order = 0;           ///< the highest ticket of an order to drones that took effect so far
   std::uint64_t revision = 0;               ///< of the targets that the tick used
   bool has_ticked = false;                  ///< false before the first tick
   std::chrono::nanoseconds computed_at{0};  ///< monotonic

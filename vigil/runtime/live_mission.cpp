@@ -24,6 +24,7 @@ LiveMission::LiveMission(Mission mission, std::unique_ptr<Fleet> fleet, VirtualF
       fleet_(std::move(fleet)),
       recorder_(std::move(recorder)),
       epoch_(epoch),
+      has_real_drones_(world == nullptr),
       flight_(mission_, *fleet_, world, recorder_.get(), start),
       loop_(flight_, mission_.drones.size()),
       drive_(std::move(drive)) {}

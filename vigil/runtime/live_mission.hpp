@@ -55,6 +55,7 @@ class LiveMission final : public ShownFlight {
   [[nodiscard]] const Mission& mission() const noexcept override { return mission_; }
   [[nodiscard]] std::uint32_t epoch() const noexcept override { return epoch_; }
   [[nodiscard]] bool is_recording() const noexcept override { return false; }
+  [[nodiscard]] bool has_real_drones() const noexcept override { return has_real_drones_; }
   [[nodiscard]] bool submit(std::vector<LiveCommand> commands) override { return loop_.submit(std::move(commands)); }
   bool read(LiveFrame& into, std::size_t& version) const override { return loop_.read(into, version); }
   bool read(ClockState& into, std::size_t& version) const override { return loop_.read(into, version); }
@@ -68,6 +69,7 @@ class LiveMission final : public ShownFlight {
   std::unique_ptr<Fleet> fleet_;
   std::unique_ptr<QueuedRecorder> recorder_;
   std::uint32_t epoch_;
+  bool has_real_drones_;
   LiveFlight flight_;
   ControlLoop loop_;
   Drive drive_;

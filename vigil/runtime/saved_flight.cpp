@@ -12,12 +12,15 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "vigil/swarm/names.hpp"
+
 namespace vigil::runtime {
 namespace {
 
 using nlohmann::json;
 
-constexpr int kFormat = 1;
+constexpr int kFormat = 2;
+constexpr int kFormatWithoutOrders = 1;  ///< is still read
 constexpr const char* kFile = "flight.json";
 constexpr std::uintmax_t kMostBytes = std::uintmax_t{256} << 20U;
 
@@ -48,8 +51,22 @@ std::vector<double> seen_in(const json& list) {
   return seen_s;
 }
 
+swarm::Intent order_in(const json& word) {
+  const auto order = swarm::value_of<swarm::Intent>(word.get<std::string>());
+  if (!order) throw SavedFlightError("an order that there is not");
+  return *order;
+}
+
+SavedFlight::Drone drone_in(const json& drone, bool has_order) {
+  return {.place_m = {drone.at(0).get<double>(), drone.at(1).get<double>()},
+          .is_down = drone.at(2).get<bool>(),
+          .order = has_order ? order_in(drone.at(3)) : swarm::Intent::kHold};
+}
+
 SavedFlight read(const json& saved) {
-  if (saved.at("format").get<int>() != kFormat) throw SavedFlightError("written by another version of the program");
+  const int format = saved.at("format").get<int>();
+  if (format != kFormat && format != kFormatWithoutOrders)
+    throw SavedFlightError("written by another version of the program");
   SavedFlight flight;
   flight.mission_text = saved.at("mission").get<std::string>();
   flight.targets_text = saved.at("targets").get<std::string>();
@@ -63,8 +80,7 @@ SavedFlight read(const json& saved) {
                           .past_averages = coefficients_in(coverage.at("past_averages")),
                           .has_samples = coverage.at("has_samples").get<bool>()};
   flight.seen_s = seen_in(saved.at("seen_s"));
-  for (const json& drone : saved.at("drones"))
-    flight.drones.push_back({{drone.at(0).get<double>(), drone.at(1).get<double>()}, drone.at(2).get<bool>()});
+  for (const json& drone : saved.at("drones")) flight.drones.push_back(drone_in(drone, format == kFormat));
   return flight;
 }
 
@@ -100,7 +116,7 @@ std::string saved_text(const SavedFlight& flight) {
   const swarm::SwarmPast& past = flight.past;
   json drones = json::array();
   for (const SavedFlight::Drone& drone : flight.drones)
-    drones.push_back({drone.place_m.x(), drone.place_m.y(), drone.is_down});
+    drones.push_back({drone.place_m.x(), drone.place_m.y(), drone.is_down, swarm::name_of(drone.order)});
   const json saved{{"format", kFormat},
                    {"mission", flight.mission_text},
                    {"targets", flight.targets_text},

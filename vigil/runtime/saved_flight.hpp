@@ -23,6 +23,7 @@ struct SavedFlight {
   struct Drone {
     Vec2 place_m = Vec2::Zero();  ///< field frame
     bool is_down = false;
+    swarm::Intent order = swarm::Intent::kHold;  ///< that stood
   };
   std::vector<Drone> drones;  ///< in the mission's order
 };

@@ -22,7 +22,7 @@ SavedFlight some_flight() {
   flight.past.coverage.time_s = 1.0 / 3.0;
   flight.past.coverage.has_samples = true;
   flight.seen_s = {1.5, -std::numeric_limits<double>::infinity(), 0.1};
-  flight.drones = {{{0.1, 0.2}, false}, {{1.0 / 7.0, 3.0}, true}};
+  flight.drones = {{{0.1, 0.2}, false, swarm::Intent::kLand}, {{1.0 / 7.0, 3.0}, true, swarm::Intent::kEmergencyStop}};
   return flight;
 }
 
@@ -55,6 +55,29 @@ TEST_F(FlightStoreTest, What_was_saved_last_comes_back_bit_for_bit) {
   ASSERT_EQ(back->drones.size(), 2U);
   EXPECT_EQ(back->drones[1].place_m, flight.drones[1].place_m);
   EXPECT_TRUE(back->drones[1].is_down);
+  EXPECT_EQ(back->drones[0].order, swarm::Intent::kLand);
+  EXPECT_EQ(back->drones[1].order, swarm::Intent::kEmergencyStop);
+}
+
+TEST_F(FlightStoreTest, A_state_from_before_orders_were_kept_is_read_and_its_drones_hold) {
+  std::string text = saved_text(some_flight());
+  const auto replace = [&text](const std::string& was, const std::string& is) {
+    ASSERT_NE(text.find(was), std::string::npos) << was;
+    text.replace(text.find(was), was.size(), is);
+  };
+  replace("\"format\":2", "\"format\":1");
+  replace(",\"land\"]", "]");
+  replace(",\"emergency_stop\"]", "]");
+  const SavedFlight back = saved_flight(text);
+  ASSERT_EQ(back.drones.size(), 2U);
+  EXPECT_EQ(back.drones[0].order, swarm::Intent::kHold);
+  EXPECT_TRUE(back.drones[1].is_down);
+}
+
+TEST_F(FlightStoreTest, An_order_that_there_is_not_is_refused) {
+  std::string text = saved_text(some_flight());
+  text.replace(text.find("\"land\""), 6, "\"dive\"");
+  EXPECT_THROW((void)saved_flight(text), SavedFlightError);
 }
 
 TEST_F(FlightStoreTest, A_program_that_dies_while_it_saves_leaves_the_save_before) {
@@ -66,7 +89,7 @@ TEST_F(FlightStoreTest, A_program_that_dies_while_it_saves_leaves_the_save_befor
 
 TEST_F(FlightStoreTest, What_makes_no_sense_is_refused_with_advice) {
   const FlightStore store(folder);
-  for (const char* text : {"", "{}", "[1]", "{\"format\":2}", "not json"}) {
+  for (const char* text : {"", "{}", "[1]", "{\"format\":3}", "not json"}) {
     write(text);
     try {
       (void)store.load();

@@ -21,6 +21,8 @@ class ShownFlight {
   [[nodiscard]] virtual std::uint32_t epoch() const noexcept = 0;
   /// What happened in a recording cannot be changed; only its clock takes commands.
   [[nodiscard]] virtual bool is_recording() const noexcept = 0;
+  /// Their time cannot be stopped or hurried: a paused clock would leave drones in the air to themselves.
+  [[nodiscard]] virtual bool has_real_drones() const noexcept { return false; }
 
   // Any thread.
   /// As ControlLoop::submit().

@@ -21,6 +21,8 @@ inline constexpr std::array<std::string_view, 5> kActionWords{"none", "take_off"
 inline constexpr std::array<std::string_view, 11> kCommandWords{
     "take_off",       "land",     "hold",      "go_to",      "resume",      "mark_failed",
     "emergency_stop", "override", "give_back", "set_target", "start_afresh"};
+inline constexpr std::array<std::string_view, 9> kIntentWords{
+    "stay_down", "take_off", "cover", "land", "hold", "go_to", "mark_failed", "emergency_stop", "override"};
 inline constexpr std::array<std::string_view, 3> kIdleWords{"none", "no_targets", "no_active_drone"};
 
 /// The words of an enumeration, in its own order.
@@ -34,6 +36,8 @@ template <>
 inline constexpr std::span<const std::string_view> kWords<Action> = kActionWords;
 template <>
 inline constexpr std::span<const std::string_view> kWords<CommandKind> = kCommandWords;
+template <>
+inline constexpr std::span<const std::string_view> kWords<Intent> = kIntentWords;
 template <>
 inline constexpr std::span<const std::string_view> kWords<Idle> = kIdleWords;
 
@@ -55,6 +59,7 @@ static_assert(name_of(VehicleMode::kFailed) == kModeWords.back());
 static_assert(name_of(Activity::kTravelling) == kActivityWords.back());
 static_assert(name_of(Action::kStopMotors) == kActionWords.back());
 static_assert(name_of(CommandKind::kStartAfresh) == kCommandWords.back());
+static_assert(name_of(Intent::kOverride) == kIntentWords.back());
 static_assert(name_of(Idle::kNoActiveDrone) == kIdleWords.back());
 
 }  // namespace vigil::swarm

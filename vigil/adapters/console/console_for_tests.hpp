@@ -87,7 +87,9 @@ class RecordedLine final : public ClientLine {
                                                                           const runtime::SavedFlight* saved,
                                                                           std::chrono::nanoseconds now) {
   runtime::FlightStart start{runtime::first_intent(mission), {}};
-  if (saved != nullptr) start = {swarm::Intent::kHold, saved->past};
+  if (saved != nullptr) start = {swarm::Intent::kHold, saved->past, {}};
+  if (saved != nullptr)
+    for (const runtime::SavedFlight::Drone& drone : saved->drones) start.standing.push_back(drone.order);
   auto fleet = std::make_unique<runtime::ObedientFleet>(runtime::starts_in_field(mission));
   runtime::VirtualFleet* const world = fleet.get();
   auto flight = std::make_shared<runtime::LiveMission>(mission, std::move(fleet), world, nullptr, start, epoch,

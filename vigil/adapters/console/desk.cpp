@@ -11,6 +11,7 @@
 #include "vigil/runtime/mission_file.hpp"
 #include "vigil/runtime/mission_setup.hpp"
 #include "vigil/runtime/mission_writer.hpp"
+#include "vigil/runtime/standing_orders.hpp"
 
 namespace vigil::console {
 namespace {
@@ -24,9 +25,10 @@ SharedBytes shared(std::string bytes) { return std::make_shared<const std::strin
 
 /// Where the drones of a flight are before its first tick.
 std::vector<runtime::SavedFlight::Drone> first_drones(const runtime::Mission& mission) {
-  const bool are_down = runtime::first_intent(mission) == swarm::Intent::kStayDown;
+  const swarm::Intent order = runtime::first_intent(mission);
+  const bool are_down = order == swarm::Intent::kStayDown;
   std::vector<runtime::SavedFlight::Drone> drones;
-  for (const Vec2& start : runtime::starts_in_field(mission)) drones.push_back({start, are_down});
+  for (const Vec2& start : runtime::starts_in_field(mission)) drones.push_back({start, are_down, order});
   return drones;
 }
 
@@ -48,8 +50,11 @@ void Desk::begin(const runtime::Mission& mission, const runtime::SavedFlight* sa
   drones_ = saved != nullptr ? saved->drones : first_drones(mission);
   frame_.emplace(mission.drones.size());
   frame_version_ = 0;
+  has_new_frame_ = false;
   unsent_.reset();
-  tell_(FlightNews{flight_, shared(in_text(mission_message(mission, epoch_))), saved != nullptr});
+  untaken_.clear();
+  const Json message = mission_message(mission, epoch_, flight_->has_real_drones());
+  tell_(FlightNews{flight_, shared(in_text(message)), saved != nullptr, store_ != nullptr});
   if (saved != nullptr) {
     frame_->past = saved->past;
     frame_->snapshot.time_s = static_cast<double>(saved->past.ticks) * runtime::tick_s(mission);
@@ -172,8 +177,8 @@ void Desk::play(std::uint32_t epoch, std::size_t event_index) {
 void Desk::look() {
   if (!flight_) return;
   submit_target();
-  if (!flight_->loop().read(*frame_, frame_version_)) return;
-  note_drones();
+  read_frame();
+  if (!std::exchange(has_new_frame_, false)) return;
   GroundNews news;
   news.deadlines = ground_->look(frame_->snapshot);
   news.areas = ground_->areas(*frame_);
@@ -186,11 +191,41 @@ void Desk::look() {
   if (++looks_since_save_ >= kLooksASave || since_save_s >= kSaveEveryS) save();
 }
 
+void Desk::read_frame() {
+  if (!flight_->loop().read(*frame_, frame_version_)) return;
+  has_new_frame_ = true;
+  note_drones();
+  while (!untaken_.empty() && untaken_.front().ticket <= frame_->newest_order) untaken_.pop_front();
+}
+
 void Desk::note_drones() {
   for (std::size_t i = 0; i < drones_.size(); ++i) {
     const swarm::DroneSnapshot& drone = frame_->snapshot.drones[i];
-    drones_[i] = {drone.position, !runtime::is_airborne(drone)};
+    drones_[i] = {drone.position, !runtime::is_airborne(drone), frame_->intents[i]};
   }
+}
+
+void Desk::keep(std::uint32_t epoch, std::vector<GivenOrder> orders) {
+  OrdersKept kept;
+  for (GivenOrder& order : orders) {
+    kept.tickets.push_back(order.ticket);
+    if (epoch == epoch_) untaken_.push_back(std::move(order));
+  }
+  if (epoch == epoch_) {
+    read_frame();
+    save();
+  }
+  tell_(std::move(kept));
+}
+
+/// The drones with the orders that will stand once the flight has taken all that it was given.
+std::vector<runtime::SavedFlight::Drone> Desk::ordered_drones() const {
+  std::vector<swarm::Intent> standing;
+  for (const runtime::SavedFlight::Drone& drone : drones_) standing.push_back(drone.order);
+  for (const GivenOrder& order : untaken_) runtime::foresee(order.commands, frame_->snapshot.drones, standing);
+  std::vector<runtime::SavedFlight::Drone> drones = drones_;
+  for (std::size_t i = 0; i < drones.size(); ++i) drones[i].order = standing[i];
+  return drones;
 }
 
 void Desk::end() {
@@ -209,7 +244,7 @@ void Desk::save() {
   saved.revision = desk_->revision();
   saved.past = frame_->past;
   saved.seen_s.assign(ground_->seen().seen_s().begin(), ground_->seen().seen_s().end());
-  saved.drones = drones_;
+  saved.drones = ordered_drones();
   try {
     store_->save(saved);
     save_failed_ = false;

@@ -32,6 +32,7 @@ struct FlightNews {
   std::shared_ptr<runtime::LiveMission> flight;
   SharedBytes mission;  ///< the message
   bool is_restored = false;
+  bool is_kept = false;  ///< a restart goes on with it: no order is done before Desk::keep has kept it
 };
 /// A recording is shown from now on.
 struct RecordingNews {
@@ -86,12 +87,22 @@ struct PreviewNews {
   std::uint64_t ticket = 0;
   Json answer;  ///< without its id
 };
+/// These orders to drones are saved, or cannot be.
+struct OrdersKept {
+  std::vector<std::uint64_t> tickets;
+};
 /// Something went wrong that people should know of.
 struct DeskTrouble {
   std::string text;
 };
 using DeskNews = std::variant<FlightNews, RecordingNews, HistoryNews, TargetsNews, GroundNews, DeskRefusal,
-                              DeskAcceptance, DeskAnswer, PreviewNews, DeskTrouble>;
+                              DeskAcceptance, DeskAnswer, PreviewNews, OrdersKept, DeskTrouble>;
+
+/// An order to drones, as a flight was given it.
+struct GivenOrder {
+  std::uint64_t ticket = 0;
+  std::vector<swarm::Command> commands;
+};
 
 /// Everything of a live flight that takes its time and must not hold up the control thread or the sockets: editing
 /// targets, drawing densities, keeping the picture of the ground, saving the state. All on one thread, the desk's.
@@ -124,6 +135,9 @@ class Desk {
   void load_mission(std::uint64_t ticket, const std::string& yaml);
   /// An event of the mission file wants other targets.
   void play(std::uint32_t epoch, std::size_t event_index);
+  /// Saves orders that the flight of this epoch was given, whether it has taken them yet or not, then tells OrdersKept.
+  /// Their tickets grow from call to call.
+  void keep(std::uint32_t epoch, std::vector<GivenOrder> orders);
   /// To be called five times a second: takes in the newest frame, tells GroundNews, and saves once a second, or as
   /// often as it is called where a second of the mission is shorter.
   void look();
@@ -136,7 +150,9 @@ class Desk {
   void finish_change(std::uint64_t ticket, const std::optional<runtime::Refusal>& refusal);
   void retarget(std::uint64_t ticket);
   void finish_flight();
+  void read_frame();
   void note_drones();
+  [[nodiscard]] std::vector<runtime::SavedFlight::Drone> ordered_drones() const;
   void submit_target();
   void refuse(std::uint64_t ticket, std::string_view code, std::string reason);
 
@@ -150,7 +166,9 @@ class Desk {
   std::optional<runtime::GroundPicture> ground_;
   std::optional<runtime::LiveFrame> frame_;
   std::size_t frame_version_ = 0;
-  std::vector<runtime::SavedFlight::Drone> drones_;  ///< where they were last known to be
+  bool has_new_frame_ = false;                       ///< nobody has looked at it
+  std::vector<runtime::SavedFlight::Drone> drones_;  ///< where they were last known to be, and under which orders
+  std::deque<GivenOrder> untaken_;                   ///< orders that frame_ does not know yet
   std::optional<runtime::LiveCommand> unsent_;       ///< a target that found the control loop's queue full
   /// The control thread must not be the last to let go of one.
   std::deque<std::shared_ptr<const swarm::CoverageTarget>> recent_targets_;

@@ -249,6 +249,39 @@ TEST_F(DeskTest, What_is_saved_before_the_first_tick_is_a_flight_that_can_go_on)
   EXPECT_TRUE(again->drones[1].is_down);
 }
 
+TEST_F(DeskTest, Orders_are_saved_before_that_is_told_whether_a_tick_has_taken_them_or_not) {
+  using swarm::Intent;
+  store = std::make_shared<runtime::FlightStore>(folder);
+  fly();
+  tick();
+  const auto give = [&](std::uint64_t ticket, swarm::CommandKind kind, std::size_t drone) {
+    runtime::LiveCommand command;
+    command.swarm.kind = kind;
+    command.swarm.drone = swarm::DroneId(drone);
+    command.ticket = ticket;
+    ASSERT_TRUE(flight->loop().submit({command}));
+    desk().keep(flight->epoch(), {{ticket, {command.swarm}}});
+  };
+  const auto saved = [&] {
+    std::vector<Intent> orders;
+    const auto now_saved = store->load();
+    for (const runtime::SavedFlight::Drone& drone : now_saved->drones) orders.push_back(drone.order);
+    return orders;
+  };
+  std::vector<Intent> expected{Intent::kCover, Intent::kLand, Intent::kCover};
+  on_news = [&] { EXPECT_EQ(saved(), expected); };
+  give(1, swarm::CommandKind::kLand, 1);
+  expected[2] = Intent::kMarkedFailed;
+  give(2, swarm::CommandKind::kMarkFailed, 2);
+  tick(2);
+  expected[1] = Intent::kStayDown;  // it came down
+  expected[0] = Intent::kHold;
+  give(3, swarm::CommandKind::kHold, 0);
+  EXPECT_EQ(told<OrdersKept>().size(), 3U);
+  desk().keep(flight->epoch() + 1, {{4, {{.kind = swarm::CommandKind::kEmergencyStop, .drone = {}, .target = {}}}}});
+  EXPECT_EQ(saved(), expected);  // of a flight that is over
+}
+
 TEST_F(DeskTest, A_mission_that_was_loaded_is_saved_before_that_is_answered) {
   store = std::make_shared<runtime::FlightStore>(folder);
   fly();

@@ -39,8 +39,11 @@ bool is_of_recordings(const MessageBody& body) {
   return std::holds_alternative<Seek>(body) || std::holds_alternative<StepTicks>(body);
 }
 
-/// Why a flight of this kind cannot follow a message; empty where it can.
-std::string_view unfit(const MessageBody& body, bool is_recording) {
+/// Why a flight cannot follow a message of this kind; empty where it can.
+std::string_view unfit(const MessageBody& body, const runtime::ShownFlight& flight) {
+  const bool is_recording = flight.is_recording();
+  if (flight.has_real_drones() && is_of_the_clock(body))
+    return "these drones are real: their time cannot be stopped or hurried; hold them instead";
   if (!is_recording && is_of_recordings(body))
     return "this is a flight, not a recording: time goes on in it; `vigil replay DIR` shows a recording";
   if (is_recording && !is_of_recordings(body) && !is_of_the_clock(body) && !std::holds_alternative<Why>(body))
@@ -220,7 +223,7 @@ void Hub::execute(const ClientMessage& message, const Author& author, Reply repl
     return reply(ack_json(id, {frame_ ? frame_->snapshot.tick : 0, false, {}, {}}));
   }
   if (!flight_) return reply(refused_json({id, "not_now", "no mission is being flown yet"}));
-  if (const std::string_view reason = unfit(message.body, flight_->is_recording()); !reason.empty())
+  if (const std::string_view reason = unfit(message.body, *flight_); !reason.empty())
     return reply(refused_json({id, "not_now", std::string(reason)}));
   if (waiting_.size() >= kMostWaiting) return reply(refused_json({id, "busy", "too many commands wait; try again"}));
   const std::uint64_t ticket = expect(message, author, std::move(reply));
@@ -340,7 +343,22 @@ void Hub::wish(const DroneWish& wish, std::uint64_t ticket) {
     if (wish.kind == swarm::CommandKind::kGoTo) command.swarm.place = field.clamp(place);
     commands.push_back(command);
   }
+  GivenOrder given{ticket, {}};
+  for (const runtime::LiveCommand& command : commands) given.commands.push_back(command.swarm);
   submit(std::move(commands), ticket);
+  const auto waiting = waiting_.find(ticket);
+  if (!is_kept_ || waiting == waiting_.end()) return;
+  waiting->second.is_kept = false;
+  unkept_.push_back(std::move(given));
+  keep_orders();
+}
+
+/// Drones follow an order at the next tick, whatever the disk does; it is answered when both are done.
+void Hub::keep_orders() {
+  if (unkept_.empty() || is_keeping_) return;
+  const auto task = [epoch = flight_->epoch(), orders = unkept_](Desk& desk) { desk.keep(epoch, orders); };
+  is_keeping_ = links_.at_desk(task);
+  if (is_keeping_) unkept_.clear();
 }
 
 void Hub::submit(std::vector<runtime::LiveCommand> commands, std::uint64_t ticket) {

@@ -130,6 +130,8 @@ class Hub {
     bool wants_revision = false;
     bool is_at_control = false;                         ///< the control loop has it, and will answer
     std::optional<std::chrono::nanoseconds> answer_by;  ///< then it is answered as pending
+    bool is_kept = true;                                ///< false: it waits to be saved, and its answer for that
+    std::optional<runtime::LiveEvent> outcome;          ///< what its answer will be once it is saved
     ClientId preview_for = 0;
     std::string drones;  ///< in words, for the log
   };
@@ -152,6 +154,8 @@ class Hub {
   [[nodiscard]] std::optional<std::vector<std::size_t>> drones_of(const DroneWish& wish, std::uint64_t ticket);
   [[nodiscard]] std::optional<std::size_t> drone_named(const std::string& id, std::uint64_t ticket);
   void submit(std::vector<runtime::LiveCommand> commands, std::uint64_t ticket);
+  /// Lets the desk save the orders that wait for that, all at once and one lot at a time.
+  void keep_orders();
   void ask_desk(std::uint64_t ticket, std::function<void(Desk&)> task);
   void refuse(std::uint64_t ticket, std::string_view code, std::string reason);
   void preview(const PreviewDensity& body, const Author& author, std::uint64_t request, std::uint64_t ticket);
@@ -170,6 +174,7 @@ class Hub {
   void take(const TargetsNews& news);
   void take(const GroundNews& news);
   void take(const DeskAnswer& news);
+  void take(const OrdersKept& news);
   void take(const PreviewNews& news);
   void hear(const runtime::LiveEvent& event);
   void hear_swarm(const runtime::LiveEvent& event);
@@ -197,6 +202,9 @@ class Hub {
   ClientId next_client_ = 1;
   std::unordered_map<std::uint64_t, Waiting> waiting_;
   std::uint64_t next_ticket_ = 1;
+  bool is_kept_ = false;            ///< a restart goes on with the flight and its orders
+  std::vector<GivenOrder> unkept_;  ///< orders that nobody has asked the desk to save yet
+  bool is_keeping_ = false;         ///< the desk was asked to save some, and has not said that it did
 
   std::shared_ptr<runtime::ShownFlight> flight_;
   std::optional<ReplayState> replay_;  ///< where flight_ is a recording

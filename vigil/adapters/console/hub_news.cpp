@@ -58,6 +58,7 @@ void Hub::take(DeskNews news) {
     const auto found = waiting_.find(acceptance->ticket);
     if (found != waiting_.end()) wait_for_control(found->second);
   }
+  if (const auto* kept = std::get_if<OrdersKept>(&news)) take(*kept);
   if (const auto* trouble = std::get_if<DeskTrouble>(&news))
     log({.source = "program", .what = "trouble", .words = {Severity::kWarning, trouble->text, "", ""}});
 }
@@ -80,6 +81,8 @@ void Hub::give_up_waiting() {
 
 void Hub::show_flight(std::shared_ptr<runtime::ShownFlight> flight, SharedBytes mission) {
   give_up_waiting();
+  unkept_.clear();
+  is_kept_ = false;
   flight_ = std::move(flight);
   replay_.reset();
   mission_message_ = std::move(mission);
@@ -129,11 +132,12 @@ void Hub::take(const HistoryNews& news) {
 void Hub::take(const FlightNews& news) {
   show_flight(news.flight, news.mission);
   waits_for_resume_ = news.is_restored;
+  is_kept_ = news.is_kept;
   runtime::EventWords words{Severity::kInfo, fmt::format("mission {} begins", flight_->mission().name), "", ""};
   if (news.is_restored)
-    words = {Severity::kWarning,
-             fmt::format("mission {} goes on after a restart of the program", flight_->mission().name),
-             "every drone in the air holds", "look whether all is well, then resume"};
+    words = {
+        Severity::kWarning, fmt::format("mission {} goes on after a restart of the program", flight_->mission().name),
+        std::string(runtime::after_restart(news.flight->has_real_drones())), "look whether all is well, then resume"};
   log({.source = "program", .what = news.is_restored ? "restored" : "begins", .words = std::move(words)});
 }
 
@@ -182,6 +186,17 @@ void Hub::take(const DeskAnswer& news) {
   const auto client = clients_.find(waiting.preview_for);
   if (news.preview && client != clients_.end()) client->second.line->show(ClientLine::Latest::kPreview, news.preview);
   waiting.reply(ack_json(waiting.id, {frame_ ? frame_->snapshot.tick : 0, false, news.revision, {}}));
+}
+
+void Hub::take(const OrdersKept& news) {
+  is_keeping_ = false;
+  for (const std::uint64_t ticket : news.tickets) {
+    const auto found = waiting_.find(ticket);
+    if (found == waiting_.end()) continue;
+    found->second.is_kept = true;
+    if (const auto outcome = found->second.outcome) hear_answer(*outcome);
+  }
+  if (flight_) keep_orders();
 }
 
 void Hub::take(const PreviewNews& news) {
@@ -278,6 +293,10 @@ void Hub::hear_script(const LiveEvent& event) {
 void Hub::hear_answer(const LiveEvent& event) {
   const auto found = waiting_.find(event.ticket);
   if (found == waiting_.end()) return;
+  if (!found->second.is_kept && event.accepted > 0) {
+    found->second.outcome = event;
+    return;
+  }
   Waiting waiting = std::move(found->second);
   waiting_.erase(found);
   const bool is_pending_answered = waiting.answer.is_pending;
@@ -311,7 +330,7 @@ void Hub::hear_answer(const LiveEvent& event) {
 
 void Hub::answer_pending(std::chrono::nanoseconds now) {
   for (auto& [ticket, waiting] : waiting_) {
-    if (!waiting.answer_by || now < *waiting.answer_by) continue;
+    if (!waiting.is_kept || !waiting.answer_by || now < *waiting.answer_by) continue;
     waiting.answer_by.reset();
     waiting.answer.is_pending = true;
     Answer answer{frame_->snapshot.tick + 1, true, {}, {}};
@@ -331,6 +350,7 @@ void Hub::poll() {
   const std::chrono::nanoseconds now = links_.now();
   drop_the_silent(now);
   if (!flight_) return;
+  keep_orders();
   flight_->read(clock_, clock_version_);
   if (now >= next_snapshot_) send_snapshot(now);
   for (const LiveEvent& event : flight_->take_events()) hear(event);

@@ -472,6 +472,67 @@ TEST(HubTest, After_a_restart_it_waits_for_somebody_to_resume) {
   EXPECT_EQ(console.hub.state().at("active"), 3);
 }
 
+class KeptFlightTest : public ::testing::Test {
+ protected:
+  KeptFlightTest() { std::filesystem::remove_all(folder); }
+  ~KeptFlightTest() override { std::filesystem::remove_all(folder); }
+  [[nodiscard]] std::vector<swarm::Intent> saved_orders() const {
+    std::vector<swarm::Intent> orders;
+    const auto saved = store->load();
+    for (const runtime::SavedFlight::Drone& drone : saved->drones) orders.push_back(drone.order);
+    return orders;
+  }
+
+  std::filesystem::path folder = std::filesystem::path(::testing::TempDir()) / "vigil_kept_flight_test";
+  std::shared_ptr<runtime::FlightStore> store = std::make_shared<runtime::FlightStore>(folder);
+};
+
+TEST_F(KeptFlightTest, An_order_takes_effect_at_once_and_is_acknowledged_when_it_is_saved) {
+  ConsoleForTests console({}, store);
+  console.fly();
+  const Visitor ana = console.join();
+  console.is_desk_at_work = false;
+  console.say(ana, {{"type", "land_all"}, {"id", 1}});
+  console.say(ana, {{"type", "mark_failed"}, {"id", 2}, {"drones", {"b"}}});
+  console.pass(300ms);
+  EXPECT_EQ(console.newest().snapshot.drones[0].activity, swarm::Activity::kGrounded);
+  EXPECT_TRUE(ana.line->answered().empty());
+  console.is_desk_at_work = true;
+  console.pass(20ms);
+  EXPECT_EQ(ana.line->answer(1).at("type"), "ack");
+  EXPECT_EQ(ana.line->answer(2).at("type"), "ack");
+  EXPECT_EQ(saved_orders()[1], swarm::Intent::kMarkedFailed);
+}
+
+TEST_F(KeptFlightTest, An_order_under_a_paused_clock_is_saved_before_it_is_acknowledged_as_pending) {
+  ConsoleForTests console({}, store);
+  console.fly();
+  const Visitor ana = console.join();
+  console.ask(ana, {{"type", "pause"}, {"id", 1}});
+  EXPECT_EQ(console.ask(ana, {{"type", "land"}, {"id", 2}, {"drones", {"b"}}}, 300ms).at("pending"), true);
+  EXPECT_EQ(saved_orders()[1], swarm::Intent::kLand);
+}
+
+TEST_F(KeptFlightTest, A_restart_goes_on_with_the_orders_that_stood_and_nothing_takes_off) {
+  using swarm::Activity;
+  {
+    ConsoleForTests console({}, store);
+    console.fly();
+    const Visitor ana = console.join();
+    console.ask(ana, {{"type", "mark_failed"}, {"id", 1}, {"drones", {"a"}}});
+    console.ask(ana, {{"type", "emergency_stop"}, {"id", 2}, {"drones", {"b"}}});
+    console.ask(ana, {{"type", "pause"}, {"id", 3}});
+    console.ask(ana, {{"type", "land"}, {"id", 4}, {"drones", {"c"}}}, 300ms);
+  }
+  const auto saved = store->load();
+  ConsoleForTests console({}, store);
+  console.desk.begin(runtime::parse_mission(saved->targets_text, "the saved state"), &*saved);
+  std::vector<Activity> seen;
+  console.pass(100ms);
+  for (const swarm::DroneSnapshot& drone : console.newest().snapshot.drones) seen.push_back(drone.activity);
+  EXPECT_EQ(seen, (std::vector<Activity>{Activity::kMarkedFailed, Activity::kEmergencyStop, Activity::kGrounded}));
+}
+
 TEST(HubTest, At_the_end_everybody_is_told_goodbye) {
   ConsoleForTests console;
   console.fly();

@@ -388,7 +388,7 @@ Json server_messages() {
   add("hello", hello_json(ana, "vigil 0.1.0", true, 2048.25));
   const RecordingFacts recording{
       .begin_s = 0.0, .end_s = 23.0, .ticks = 1151, .spacing_s = 0.02, .incomplete = "it was cut off"};
-  add("mission", shortened(mission_message(mission, 3)));
+  add("mission", shortened(mission_message(mission, 3, false)));
   add("mission of a recording", shortened(recorded_mission_message(mission, 3, recording)));
   add(is_refused ? "targets, not changed" : "targets", targets_json(desk, 3));
   add("events", events_json({event_json(event)}));

@@ -55,7 +55,8 @@ Json hello_json(const Operator& client, std::string_view program, bool wants_log
           {"roles", kRoleWords},     {"login", wants_login}, {"steady_ms", steady_ms}};
 }
 
-Json mission_message(const runtime::Mission& mission, std::uint32_t epoch) {
+Json mission_message(const runtime::Mission& mission, std::uint32_t epoch, bool has_real_drones) {
+  if (has_real_drones) return mission_message(mission, epoch, "LIVE", {1.0, 1.0}, nullptr);
   return mission_message(mission, epoch, "SIM", {1.0, kMostSpeed}, nullptr);
 }
 
