@@ -395,6 +395,15 @@ class Doors(unittest.TestCase):
             self.assertIn("cannot listen", self.refused("--port", program.port)[1])
 
 
+def wait_for_activities(program, client, expected):
+    """Until the drones are in these, in the mission's order."""
+    def are_there(message):
+        drones = program.json("GET", "/api/state")[1]["drones"] if message["type"] == "frame" else []
+        return [drone["activity"] for drone in drones] == expected
+
+    client.wait_for(are_there)
+
+
 class Restart(unittest.TestCase):
     def test_after_kill_9_it_goes_on_with_targets_and_coverage_and_drones_that_hold(self):
         with tempfile.TemporaryDirectory() as folder:
@@ -420,7 +429,7 @@ class Restart(unittest.TestCase):
                 self.assertEqual([one["activity"] for one in state["drones"]], ["held", "grounded", "held"])
                 self.assertLess(state["metric_percent"], 50)
                 self.assertEqual(client.ask(type="resume", id=1, drones="all")["type"], "ack")
-                client.wait_for_event("active", "cf1")
+                wait_for_activities(program, client, ["active", "grounded", "active"])
             with self.assertRaisesRegex(RuntimeError, "another mission"):
                 Program(VIGIL, MISSIONS / "lab.yaml", "--state", folder)
 
@@ -439,24 +448,23 @@ class Restart(unittest.TestCase):
         with tempfile.TemporaryDirectory() as folder:
             orders = [("mark_failed", "cf1", "marked_failed"), ("emergency_stop", "cf2", "emergency_stop"),
                       ("land", "cf3", "grounded")]
-            for number, (order, drone, _) in enumerate(orders):
+            for order, drone, _ in orders:
                 with paper("--state", folder) as program:
                     client = WebSocket(program.port)
                     client.hello()
-                    if number == 0:
-                        client.snapshot()
+                    client.snapshot()
                     self.assertEqual(client.ask(type=order, id=1, drones=[drone])["type"], "ack")
                     program.kill()
             with paper("--state", folder) as program:
                 client = WebSocket(program.port)
                 client.hello()
                 client.ask(type="set_speed", id=1, factor=20)
-                client.wait_for_event("grounded", "cf3")
+                after = [activity for _, _, activity in orders]
+                wait_for_activities(program, client, after)
                 began = client.snapshot()["tick"]
-                while client.snapshot()["tick"] < began + 1000:
+                while client.snapshot()["tick"] < began + 1000:  # nothing takes off by itself
                     pass
-                _, state = program.json("GET", "/api/state")
-                self.assertEqual([one["activity"] for one in state["drones"]], [after for _, _, after in orders])
+                wait_for_activities(program, client, after)
 
     def test_after_land_all_and_a_kill_every_drone_comes_down(self):
         with tempfile.TemporaryDirectory() as folder:
@@ -469,8 +477,7 @@ class Restart(unittest.TestCase):
             with paper("--state", folder) as program:
                 client = WebSocket(program.port)
                 client.hello()
-                for drone in ["cf1", "cf2", "cf3"]:
-                    client.wait_for_event("grounded", drone)
+                wait_for_activities(program, client, ["grounded"] * 3)
 
     def test_who_knows_the_address_can_ask_for_the_state(self):
         for _ in range(5):

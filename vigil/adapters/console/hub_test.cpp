@@ -474,7 +474,10 @@ TEST(HubTest, After_a_restart_it_waits_for_somebody_to_resume) {
 
 class KeptFlightTest : public ::testing::Test {
  protected:
-  KeptFlightTest() { std::filesystem::remove_all(folder); }
+  KeptFlightTest() {
+    std::filesystem::remove_all(folder);
+    store = std::make_shared<runtime::FlightStore>(folder);
+  }
   ~KeptFlightTest() override { std::filesystem::remove_all(folder); }
   [[nodiscard]] std::vector<swarm::Intent> saved_orders() const {
     std::vector<swarm::Intent> orders;
@@ -484,7 +487,7 @@ class KeptFlightTest : public ::testing::Test {
   }
 
   std::filesystem::path folder = std::filesystem::path(::testing::TempDir()) / "vigil_kept_flight_test";
-  std::shared_ptr<runtime::FlightStore> store = std::make_shared<runtime::FlightStore>(folder);
+  std::shared_ptr<runtime::FlightStore> store;
 };
 
 TEST_F(KeptFlightTest, An_order_takes_effect_at_once_and_is_acknowledged_when_it_is_saved) {
@@ -515,7 +518,7 @@ TEST_F(KeptFlightTest, An_order_under_a_paused_clock_is_saved_before_it_is_ackno
 
 TEST_F(KeptFlightTest, A_restart_goes_on_with_the_orders_that_stood_and_nothing_takes_off) {
   using swarm::Activity;
-  {
+  {  // a run of the program that just ends
     ConsoleForTests console({}, store);
     console.fly();
     const Visitor ana = console.join();
