@@ -41,7 +41,7 @@ void change(const std::vector<runtime::TargetEdit>& edits) {
     return;
   }
   require(!runtime::check_targets(desk.mission()));
-  require(!desk.undo("fuzz") && desk.mission() == kBefore);
+  require(!desk.undo(desk.revision(), "fuzz") && desk.mission() == kBefore);
 }
 
 void say(std::string_view text) {

@@ -113,7 +113,7 @@ class Replay(unittest.TestCase):
         revision = self.client.wait_for_type("targets")["revision"]
         edits = [{"op": "set_weight", "kind": "cluster", "name": "east", "weight": 3}]
         for command in ({"type": "edit", "based_on": revision, "edits": edits}, {"type": "land_all"},
-                        {"type": "emergency_stop", "drones": "all"}, {"type": "undo"}, {"type": "preview"},
+                        {"type": "emergency_stop", "drones": "all"}, {"type": "undo", "based_on": 1}, {"type": "preview"},
                         {"type": "load_mission", "yaml": "format: 1"}, {"type": "start_afresh"}):
             kind = command.pop("type")
             refused = self.ask(kind, **command)

@@ -191,7 +191,13 @@ void MissionDesk::shorten_history() {
   }
 }
 
-std::optional<Refusal> MissionDesk::undo(const std::string& by) {
+Refusal MissionDesk::changed_since() const {
+  return {Refusal::Code::kStale, fmt::format("{} changed the targets meanwhile ({}); look at that, then try again", by_,
+                                             what_.empty() ? "all of them" : what_)};
+}
+
+std::optional<Refusal> MissionDesk::undo(std::uint64_t based_on, const std::string& by) {
+  if (based_on != revision_) return changed_since();
   if (undo_.empty()) return Refusal{Refusal::Code::kNotNow, "nothing was changed that could be undone"};
   Step step = std::move(undo_.back());
   undo_.pop_back();
@@ -201,7 +207,8 @@ std::optional<Refusal> MissionDesk::undo(const std::string& by) {
   return std::nullopt;
 }
 
-std::optional<Refusal> MissionDesk::redo(const std::string& by) {
+std::optional<Refusal> MissionDesk::redo(std::uint64_t based_on, const std::string& by) {
+  if (based_on != revision_) return changed_since();
   if (redo_.empty()) return Refusal{Refusal::Code::kNotNow, "nothing was undone that could be done again"};
   Step step = std::move(redo_.back());
   redo_.pop_back();

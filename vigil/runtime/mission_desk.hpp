@@ -47,13 +47,16 @@ class MissionDesk {
   /// What edit() would make of the mission.
   [[nodiscard]] std::variant<Mission, Refusal> draft(std::span<const TargetEdit> edits, std::uint64_t based_on) const;
 
-  [[nodiscard]] std::optional<Refusal> undo(const std::string& by);
-  [[nodiscard]] std::optional<Refusal> redo(const std::string& by);
+  /// Stale where `based_on` is not the newest revision: the change that would be taken back is another than was seen.
+  [[nodiscard]] std::optional<Refusal> undo(std::uint64_t based_on, const std::string& by);
+  [[nodiscard]] std::optional<Refusal> redo(std::uint64_t based_on, const std::string& by);
   /// What undo() and redo() would change, in words; null where they cannot.
   [[nodiscard]] const std::string* undo_what() const { return undo_.empty() ? nullptr : &undo_.back().what; }
   [[nodiscard]] const std::string* redo_what() const { return redo_.empty() ? nullptr : &redo_.back().what; }
 
  private:
+  [[nodiscard]] Refusal changed_since() const;
+
   /// A change that was taken back or can be: its words, and the targets on its other side.
   struct Step {
     std::string what;

@@ -138,24 +138,39 @@ TEST(MissionDeskTest, A_change_of_a_revision_that_is_yet_to_come_is_told_which_i
 TEST(MissionDeskTest, Undo_and_redo_walk_through_all_changes_and_a_new_one_ends_redo) {
   MissionDesk desk(small_mission());
   const Mission first = desk.mission();
-  EXPECT_EQ(desk.undo("Ana")->code, Refusal::Code::kNotNow);
+  EXPECT_EQ(desk.undo(desk.revision(), "Ana")->code, Refusal::Code::kNotNow);
   ASSERT_FALSE(change(desk, {SetWeight{kEast, 2.0}}));
   ASSERT_FALSE(change(desk, {RemoveEntry{kMast}}));
   const Mission last = desk.mission();
   EXPECT_EQ(*desk.undo_what(), "mast: removed");
-  ASSERT_FALSE(desk.undo("Ben"));
-  ASSERT_FALSE(desk.undo("Ben"));
+  ASSERT_FALSE(desk.undo(desk.revision(), "Ben"));
+  ASSERT_FALSE(desk.undo(desk.revision(), "Ben"));
   EXPECT_EQ(desk.mission(), first);
   EXPECT_EQ(desk.by(), "Ben");
   EXPECT_EQ(desk.what(), "undone: east: weight 2");
   EXPECT_EQ(desk.undo_what(), nullptr);
-  ASSERT_FALSE(desk.redo("Ben"));
-  ASSERT_FALSE(desk.redo("Ben"));
+  ASSERT_FALSE(desk.redo(desk.revision(), "Ben"));
+  ASSERT_FALSE(desk.redo(desk.revision(), "Ben"));
   EXPECT_EQ(desk.mission(), last);
   EXPECT_EQ(desk.revision(), 7U);
-  ASSERT_FALSE(desk.undo("Ana"));
+  ASSERT_FALSE(desk.undo(desk.revision(), "Ana"));
   ASSERT_FALSE(change(desk, {SetWeight{kWest, 1.0}}));
-  EXPECT_EQ(desk.redo("Ana")->code, Refusal::Code::kNotNow);
+  EXPECT_EQ(desk.redo(desk.revision(), "Ana")->code, Refusal::Code::kNotNow);
+}
+
+TEST(MissionDeskTest, Nobody_takes_back_a_change_that_they_have_not_seen) {
+  MissionDesk desk(small_mission());
+  ASSERT_FALSE(change(desk, {SetWeight{kEast, 2.0}}));
+  ASSERT_FALSE(change(desk, {RemoveEntry{kMast}}));
+  const Mission last = desk.mission();
+  const auto undo = desk.undo(2, "Ben");
+  ASSERT_TRUE(undo);
+  EXPECT_EQ(undo->code, Refusal::Code::kStale);
+  EXPECT_NE(undo->reason.find("mast: removed"), std::string::npos) << undo->reason;
+  EXPECT_EQ(desk.mission(), last);
+  ASSERT_FALSE(desk.undo(3, "Ben"));
+  EXPECT_EQ(desk.redo(3, "Ben")->code, Refusal::Code::kStale);
+  EXPECT_FALSE(desk.redo(4, "Ben"));
 }
 
 TEST(MissionDeskTest, History_is_bounded) {
@@ -163,7 +178,7 @@ TEST(MissionDeskTest, History_is_bounded) {
   for (std::size_t n = 0; n < MissionDesk::kMostUndo + 10; ++n)
     ASSERT_FALSE(change(desk, {SetWeight{kEast, static_cast<double>(n)}}));
   std::size_t undone = 0;
-  while (!desk.undo("Ana")) ++undone;
+  while (!desk.undo(desk.revision(), "Ana")) ++undone;
   EXPECT_EQ(undone, MissionDesk::kMostUndo);
 }
 

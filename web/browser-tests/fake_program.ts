@@ -180,6 +180,7 @@ export class FakeProgram {
       role: 'safety_pilot',
       roles: ['viewer', 'operator', 'safety_pilot'],
       login: false,
+      run: '1f',
       steady_ms: performance.now(),
     });
     this.say({

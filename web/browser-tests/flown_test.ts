@@ -4,17 +4,18 @@ import { join } from 'node:path';
 import type { Browser, Page } from 'playwright-core';
 import { afterAll, afterEach, beforeAll, describe, expect, it } from 'vitest';
 import { violationsOf } from './axe';
-import { keepPicture, openBrowser, openView, type View } from './chromium';
+import { keepPicture, openBrowser } from './chromium';
 import { pixelOf } from './field_pixels';
 import { kEmptyField } from './missions';
 import { serve, type Program } from './program';
+import { Views, type ViewOptions } from './views';
 
 /** The real program with a simulated fleet, in a real browser. */
 
 let browser: Browser;
 let folder: string;
 let program: Program;
-let views: View[] = [];
+const views = new Views();
 
 beforeAll(async () => {
   [browser, folder] = [await openBrowser(), await mkdtemp(join(tmpdir(), 'vigil-console-'))];
@@ -25,20 +26,12 @@ afterAll(async () => {
   await rm(folder, { recursive: true });
 });
 afterEach(async () => {
-  const complaints = views.flatMap((view) => view.complaints);
-  for (const view of views) await view.context.close();
-  views = [];
+  const complaints = await views.close();
   await program.stop();
   expect(complaints).toEqual([]);
 });
 
-async function look(options: Parameters<typeof openView>[1] = {}): Promise<Page> {
-  const view = await openView(browser, options);
-  views.push(view);
-  await view.page.goto(program.address);
-  await view.page.getByTestId('badge').getByText('SIM').waitFor();
-  return view.page;
-}
+const look = (options: ViewOptions = {}): Promise<Page> => views.look(browser, program.address, 'SIM', options);
 
 const flyPaper = async (): Promise<Page> => {
   program = await serve('paper.yaml');
@@ -218,6 +211,31 @@ describe('drones', () => {
     await keepPicture(page, 'land_all');
     await page.getByRole('button', { name: 'Take off' }).click();
     await page.getByRole('row', { name: /cf1/ }).getByText('Active').waitFor();
+  });
+
+  it('Landing and marking as failed want drones that were chosen: nobody ends a flight by a click too few', async () => {
+    const page = await flyPaper();
+    const [land, fail] = ['Land', 'Mark failed'].map((name) => page.getByRole('button', { name, exact: true }));
+    expect([await land!.isDisabled(), await fail!.isDisabled()]).toEqual([true, true]);
+    await keepPicture(page, 'nothing_selected');
+    await page.getByRole('button', { name: 'cf1', exact: true }).click();
+    await land!.click();
+    await page.getByRole('row', { name: /cf1/ }).getByText('Grounded').waitFor();
+    await expect.poll(() => page.getByTestId('active-count').textContent()).toMatch('2 of 3 active');
+  });
+
+  it('An order under a paused clock is said to wait, and done once the clock goes on', async () => {
+    const page = await flyPaper();
+    await page.getByRole('button', { name: 'Pause the simulation' }).click();
+    await page.getByRole('button', { name: 'Go on' }).waitFor();
+    await page.getByRole('button', { name: 'LAND ALL' }).click();
+    const waiting = page.getByText('Waiting: the clock is paused. Not done yet: LAND ALL');
+    await waiting.waitFor();
+    await keepPicture(page, 'order_waits');
+    await page.getByRole('button', { name: 'Go on' }).click();
+    await waiting.waitFor({ state: 'detached' });
+    await page.getByText('LAND ALL: every drone comes down.').waitFor();
+    await page.getByRole('row', { name: /cf1/ }).getByText('Grounded').waitFor();
   });
 
   it('The emergency stop needs its two presses', async () => {

@@ -112,6 +112,29 @@ describe('a console whose program is played', () => {
     await keepPicture(page, 'lost_drones');
   });
 
+  it('Rows stay under the hand while what they show changes, and go when it leaves', async () => {
+    await beginFlying(5);
+    const rows = page.getByRole('region', { name: 'Fleet table' }).getByRole('button');
+    program.drones[1]!.activity = program.drones[3]!.activity = 9;
+    await page.getByLabel('Show which drones').selectOption('not active');
+    await expect.poll(() => rows.allTextContents()).toEqual(['d2', 'd4']);
+    await page.getByRole('row', { name: /d4/ }).hover();
+    program.drones[1]!.activity = 0;
+    program.drones[0]!.activity = 9;
+    await expect.poll(() => rows.allTextContents()).toEqual(['d2', 'd4', 'd1']);
+    await page.locator('.map-field').hover();
+    await expect.poll(() => rows.allTextContents()).toEqual(['d1', 'd4']);
+  });
+
+  it('On a tablet the table says when each drone was heard', async () => {
+    await beginFlying(5);
+    for (const width of [768, 1024]) {
+      await page.setViewportSize({ width, height: 900 });
+      await page.getByRole('columnheader', { name: 'link' }).waitFor();
+      await keepPicture(page, `table_${width}`);
+    }
+  });
+
   it('A restarted program waits for somebody to let the drones go on', async () => {
     await beginFlying(3);
     program.sayStatus({ waits_for_resume: true });

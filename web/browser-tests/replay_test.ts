@@ -6,8 +6,9 @@ import { promisify } from 'node:util';
 import type { Browser, Page } from 'playwright-core';
 import { afterAll, afterEach, beforeAll, describe, expect, it } from 'vitest';
 import { violationsOf } from './axe';
-import { keepPicture, openBrowser, openView, type View } from './chromium';
+import { keepPicture, openBrowser } from './chromium';
 import { kProgram, replay, type Program } from './program';
+import { Views, type ViewOptions } from './views';
 
 /** The console on a recording of the paper's mission, 30 s of it: a drone lands after 23 s. */
 
@@ -15,7 +16,7 @@ const kSeconds = 30;
 let browser: Browser;
 let folder: string;
 let program: Program;
-let views: View[] = [];
+const views = new Views();
 
 beforeAll(async () => {
   [browser, folder] = [await openBrowser(), await mkdtemp(join(tmpdir(), 'vigil-replay-'))];
@@ -28,20 +29,14 @@ afterAll(async () => {
   await rm(folder, { recursive: true });
 });
 afterEach(async () => {
-  const complaints = views.flatMap((view) => view.complaints);
-  for (const view of views) await view.context.close();
-  views = [];
+  const complaints = await views.close();
   await program.stop();
   expect(complaints).toEqual([]);
 });
 
-async function open(options: Parameters<typeof openView>[1] = {}): Promise<Page> {
+async function open(options: ViewOptions = {}): Promise<Page> {
   program = await replay(join(folder, 'flight'));
-  const view = await openView(browser, options);
-  views.push(view);
-  await view.page.goto(program.address);
-  await view.page.getByTestId('badge').getByText('REPLAY').waitFor();
-  return view.page;
+  return views.look(browser, program.address, 'REPLAY', options);
 }
 
 const moment = (page: Page) => page.getByRole('slider', { name: 'Moment of the recording' });

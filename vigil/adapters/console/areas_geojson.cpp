@@ -188,8 +188,9 @@ ordered_json areas_geojson(const runtime::Mission& mission) {
 std::variant<std::vector<runtime::TargetEdit>, std::string> edits_of_geojson(std::string_view text,
                                                                              const runtime::Mission& mission) {
   constexpr std::size_t kMostReasonBytes = 400;
-  const json collection = json::parse(text, nullptr, false);
-  if (collection.is_discarded()) return "it is not JSON in UTF-8";
+  const ParsedJson parsed = parse_json(text);
+  if (std::string problem = parsed.problem(); !problem.empty()) return problem;
+  const json& collection = parsed.value;
   try {
     const JsonReader reader(collection, "");
     if (reader.text("type", 40) != "FeatureCollection") reader.refuse("type", "must be FeatureCollection");

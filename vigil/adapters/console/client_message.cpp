@@ -71,13 +71,15 @@ Confirm confirm_in(const JsonReader& reader) {
 }
 
 DroneWish wish_in(const JsonReader& reader, std::string_view type, CommandKind kind) {
-  DroneWish wish{kind, false, {}, {}};
+  DroneWish wish{kind, false, {}, {}, {}};
   if (type == "go_to") {
-    reader.allow_only({"type", "id", "drones", "place_m"});
+    reader.allow_only({"type", "id", "run", "epoch", "drones", "place_m"});
     wish.place_m = reader.point("place_m");
   } else {
-    reader.allow_only({"type", "id", "drones"});
+    reader.allow_only({"type", "id", "run", "epoch", "drones"});
   }
+  if (reader.has("run")) wish.seen.run = reader.text("run", kMostIdBytes);
+  if (reader.has("epoch")) wish.seen.epoch = reader.whole("epoch");
   if (!reader.is_text("drones")) {
     wish.drones = reader.texts("drones", kMostDrones, kMostIdBytes);
     if (wish.drones.empty()) reader.refuse("drones", "must name at least one drone");
@@ -149,6 +151,12 @@ StepTicks step_in(const JsonReader& reader) {
 }
 
 template <typename Body>
+Body step_back_in(const JsonReader& reader) {
+  reader.allow_only({"type", "id", "based_on"});
+  return {reader.whole("based_on")};
+}
+
+template <typename Body>
 Body nothing_in(const JsonReader& reader) {
   reader.allow_only({"type", "id"});
   return {};
@@ -165,8 +173,8 @@ std::optional<MessageBody> body_in(const JsonReader& reader, std::string_view ty
   if (type == "why") return why_in(reader);
   if (type == "editing") return editing_in(reader);
   if (type == "edit") return draft_in<Edit>(reader);
-  if (type == "undo") return nothing_in<Undo>(reader);
-  if (type == "redo") return nothing_in<Redo>(reader);
+  if (type == "undo") return step_back_in<Undo>(reader);
+  if (type == "redo") return step_back_in<Redo>(reader);
   if (type == "start_afresh") return nothing_in<StartAfresh>(reader);
   if (type == "set_speed") return speed_in(reader);
   if (type == "pause") return nothing_in<Pause>(reader);
@@ -176,7 +184,7 @@ std::optional<MessageBody> body_in(const JsonReader& reader, std::string_view ty
   if (type == "load_mission") return mission_in(reader);
   if (type == "land_all") {
     reader.allow_only({"type", "id"});
-    return DroneWish{CommandKind::kLand, true, {}, {}};
+    return DroneWish{CommandKind::kLand, true, {}, {}, {}};
   }
   return std::nullopt;
 }
@@ -215,13 +223,16 @@ std::variant<ClientMessage, MessageRefusal> message_in(const nlohmann::json& mes
 std::variant<ClientMessage, MessageRefusal> parse_client_message(std::string_view text) {
   if (text.size() > kMostMessageBytes)
     return MessageRefusal{{}, "too_large", fmt::format("a message has at most {} bytes", kMostMessageBytes)};
-  const nlohmann::json message = nlohmann::json::parse(text, nullptr, false);
-  if (message.is_discarded()) return MessageRefusal{{}, "malformed", "it is not JSON in UTF-8"};
-  return message_in(message);
+  const ParsedJson message = parse_json(text);
+  if (const std::string problem = message.problem(); !problem.empty())
+    return MessageRefusal{message.twice == "id" ? std::nullopt : id_in(message.value), "malformed", problem};
+  return message_in(message.value);
 }
 
 std::variant<ClientMessage, MessageRefusal> parse_preview(std::string_view text) {
-  nlohmann::json message = nlohmann::json::parse(text, nullptr, false);
+  ParsedJson parsed = parse_json(text);
+  if (!parsed.twice.empty()) return MessageRefusal{{}, "malformed", parsed.problem()};
+  nlohmann::json& message = parsed.value;
   if (!message.is_object()) return MessageRefusal{{}, "malformed", "it is not a JSON object in UTF-8"};
   if (message.contains("type") || message.contains("id"))
     return MessageRefusal{{}, "malformed", "type, id: are no members here; see protocol/openapi.json"};

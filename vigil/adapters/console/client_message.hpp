@@ -49,18 +49,28 @@ struct Why {
 struct Editing {
   std::vector<runtime::TargetName> what;
 };
+/// The flight that somebody was looking at: what is given must be the one that is flown.
+struct SeenFlight {
+  std::optional<std::string> run;      ///< of `hello`
+  std::optional<std::uint64_t> epoch;  ///< of `mission`
+};
 struct DroneWish {
   swarm::CommandKind kind = swarm::CommandKind::kHold;
   bool all = false;
   std::vector<std::string> drones;  ///< ids, where not all
   std::optional<Vec2> place_m;      ///< kGoTo: world frame; none: each drone's own start
+  SeenFlight seen;
 };
 struct Edit {
   std::uint64_t based_on = 0;
   std::vector<runtime::TargetEdit> edits;
 };
-struct Undo {};
-struct Redo {};
+struct Undo {
+  std::uint64_t based_on = 0;
+};
+struct Redo {
+  std::uint64_t based_on = 0;
+};
 struct StartAfresh {};
 struct SetSpeed {
   double factor = 1.0;

@@ -113,7 +113,7 @@ class ConsoleForTests {
   using Time = std::chrono::nanoseconds;
 
   explicit ConsoleForTests(std::optional<Tokens> tokens = {}, std::shared_ptr<runtime::FlightStore> store = nullptr)
-      : hub({"vigil test", std::move(tokens), ""},
+      : hub({"vigil test", std::move(tokens), "", "this run"},
             {[this] { return now; }, [this] { return std::chrono::duration<double, std::milli>(now).count(); },
              [this](std::function<void(Desk&)> task) { return post(std::move(task)); }}),
         desk([this](const runtime::Mission& mission, std::uint32_t epoch,

@@ -111,9 +111,13 @@ void Desk::edit(std::uint64_t ticket, const std::vector<runtime::TargetEdit>& ed
   finish_change(ticket, desk_->edit(edits, based_on, by));
 }
 
-void Desk::undo(std::uint64_t ticket, const std::string& by) { finish_change(ticket, desk_->undo(by)); }
+void Desk::undo(std::uint64_t ticket, std::uint64_t based_on, const std::string& by) {
+  finish_change(ticket, desk_->undo(based_on, by));
+}
 
-void Desk::redo(std::uint64_t ticket, const std::string& by) { finish_change(ticket, desk_->redo(by)); }
+void Desk::redo(std::uint64_t ticket, std::uint64_t based_on, const std::string& by) {
+  finish_change(ticket, desk_->redo(based_on, by));
+}
 
 void Desk::preview(std::uint64_t ticket, const std::atomic<std::uint64_t>& newest, std::uint64_t request,
                    const std::vector<runtime::TargetEdit>& edits, std::uint64_t based_on) {

@@ -122,8 +122,8 @@ class Desk {
 
   void edit(std::uint64_t ticket, const std::vector<runtime::TargetEdit>& edits, std::uint64_t based_on,
             const std::string& by);
-  void undo(std::uint64_t ticket, const std::string& by);
-  void redo(std::uint64_t ticket, const std::string& by);
+  void undo(std::uint64_t ticket, std::uint64_t based_on, const std::string& by);
+  void redo(std::uint64_t ticket, std::uint64_t based_on, const std::string& by);
   /// newest: the ticket of the newest preview that the same client asked for; all others are superseded.
   void preview(std::uint64_t ticket, const std::atomic<std::uint64_t>& newest, std::uint64_t request,
                const std::vector<runtime::TargetEdit>& edits, std::uint64_t based_on);

@@ -91,7 +91,7 @@ TEST_F(DeskTest, A_change_that_is_refused_tells_why_and_changes_nothing) {
   news.clear();
   desk().edit(5, {weigh("nobody", 3.0)}, 1, "Ana");
   desk().edit(6, {weigh("east", -1.0)}, 1, "Ana");
-  desk().undo(7, "Ana");
+  desk().undo(7, 1, "Ana");
   const auto refusals = told<DeskRefusal>();
   ASSERT_EQ(refusals.size(), news.size());
   ASSERT_EQ(refusals.size(), 3U);
@@ -220,10 +220,10 @@ TEST_F(DeskTest, A_change_is_saved_before_anybody_hears_of_it_or_a_tick_uses_it_
   desk().edit(5, {weigh("east", 3.0)}, 1, "Ana");
   tick();
   revision = 3;
-  desk().undo(6, "Ana");
+  desk().undo(6, 2, "Ana");
   tick();
   revision = 4;
-  desk().redo(7, "Ana");
+  desk().redo(7, 3, "Ana");
   EXPECT_EQ(told<DeskAcceptance>().size(), 3U);
 }
 

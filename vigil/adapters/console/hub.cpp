@@ -175,7 +175,7 @@ void Hub::show_everything(Client& client) {
   const auto say = [&client](const Json& json) {
     client.line->say(std::make_shared<const std::string>(in_text(json)));
   };
-  say(hello_json(client.who, setup_.program, wants_login(), steady_ms()));
+  say(hello_json(client.who, setup_.program, setup_.run, wants_login(), steady_ms()));
   if (mission_message_) client.line->say(mission_message_);
   if (targets_message_) client.line->say(targets_message_);
   if (!events_.empty()) say(events_json({events_.begin(), events_.end()}));
@@ -267,8 +267,8 @@ void Hub::dispatch(const ClientMessage& message, const Author& author, std::uint
                  [&](const PreviewDensity& body) { preview(body, author, message.id.value_or(0), ticket); },
                  [&](const Preview& body) { look_ahead(body, author, ticket); },
                  [&](const Why& body) { explain(body, author, ticket); },
-                 [&](const Undo&) { ask_desk(ticket, [=](Desk& desk) { desk.undo(ticket, by); }); },
-                 [&](const Redo&) { ask_desk(ticket, [=](Desk& desk) { desk.redo(ticket, by); }); },
+                 [&](const Undo& body) { ask_desk(ticket, [=](Desk& desk) { desk.undo(ticket, body.based_on, by); }); },
+                 [&](const Redo& body) { ask_desk(ticket, [=](Desk& desk) { desk.redo(ticket, body.based_on, by); }); },
                  [&](const LoadMission& body) {
                    ask_desk(ticket, [ticket, yaml = body.yaml](Desk& desk) { desk.load_mission(ticket, yaml); });
                  },
@@ -326,7 +326,15 @@ std::optional<std::vector<std::size_t>> Hub::drones_of(const DroneWish& wish, st
   return drones;
 }
 
+bool Hub::is_of_this_flight(const SeenFlight& seen) const {
+  return seen.run.value_or(setup_.run) == setup_.run && seen.epoch.value_or(flight_->epoch()) == flight_->epoch();
+}
+
+/// Motors stop whichever flight somebody was looking at; all else could reach a drone that only has the name of
+/// another.
 void Hub::wish(const DroneWish& wish, std::uint64_t ticket) {
+  if (wish.kind != swarm::CommandKind::kEmergencyStop && !is_of_this_flight(wish.seen))
+    return refuse(ticket, "stale", "another flight has begun since; look at its drones, then order again");
   const auto drones = drones_of(wish, ticket);
   if (!drones) return;
   const runtime::Mission& mission = flight_->mission();

@@ -66,6 +66,7 @@ struct HubSetup {
   std::string program;           ///< "vigil 0.1.0"
   std::optional<Tokens> tokens;  ///< none: whoever comes may be a safety pilot
   std::string recording_folder;  ///< empty: nothing is recorded
+  std::string run;               ///< tells this run of the program from every other
 };
 
 /// Everybody who looks at or commands the flight, and what they are told: the console's side of the program without its
@@ -151,6 +152,7 @@ class Hub {
   std::uint64_t expect(const ClientMessage& message, const Author& author, Reply reply);
   void dispatch(const ClientMessage& message, const Author& author, std::uint64_t ticket);
   void wish(const DroneWish& wish, std::uint64_t ticket);
+  [[nodiscard]] bool is_of_this_flight(const SeenFlight& seen) const;
   [[nodiscard]] std::optional<std::vector<std::size_t>> drones_of(const DroneWish& wish, std::uint64_t ticket);
   [[nodiscard]] std::optional<std::size_t> drone_named(const std::string& id, std::uint64_t ticket);
   void submit(std::vector<runtime::LiveCommand> commands, std::uint64_t ticket);

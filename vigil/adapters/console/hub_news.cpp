@@ -437,7 +437,8 @@ Json Hub::state() const {
                       {"link_age_s", drone.link_age_s},
                       {"battery", drone.battery}});
   }
-  Json state{{"epoch", flight_->epoch()},
+  Json state{{"run", setup_.run},
+             {"epoch", flight_->epoch()},
              {"revision", revision_},
              {"tick", snapshot.tick},
              {"time_s", snapshot.time_s},

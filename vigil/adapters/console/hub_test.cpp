@@ -136,8 +136,8 @@ std::vector<Permission> permissions() {
                               {{{"type", "land_all"}}, Role::kOperator},
                               {{{"type", "emergency_stop"}, {"drones", "all"}}, Role::kSafetyPilot},
                               {{{"type", "edit"}, {"based_on", 1}, {"edits", {edit}}}, Role::kOperator},
-                              {{{"type", "undo"}}, Role::kOperator},
-                              {{{"type", "redo"}}, Role::kOperator},
+                              {{{"type", "undo"}, {"based_on", 1}}, Role::kOperator},
+                              {{{"type", "redo"}, {"based_on", 1}}, Role::kOperator},
                               {{{"type", "start_afresh"}}, Role::kOperator},
                               {{{"type", "set_speed"}, {"factor", 2}}, Role::kOperator},
                               {{{"type", "pause"}}, Role::kOperator},
@@ -262,11 +262,12 @@ TEST(HubTest, Undo_and_redo_are_one_history_for_everybody) {
   const Visitor ana = console.join();
   const Visitor ben = console.join();
   console.ask(ana, weigh_east(1, 1, 3.0));
-  EXPECT_EQ(console.ask(ben, {{"type", "undo"}, {"id", 1}}).at("revision"), 3);
+  EXPECT_EQ(console.ask(ben, {{"type", "undo"}, {"id", 1}, {"based_on", 2}}).at("revision"), 3);
   EXPECT_EQ(weight_of_east(ana.line->of("targets").back()), 1.0);
-  EXPECT_EQ(console.ask(ana, {{"type", "redo"}, {"id", 2}}).at("revision"), 4);
+  EXPECT_EQ(console.ask(ana, {{"type", "undo"}, {"id", 9}, {"based_on", 2}}).at("code"), "stale");
+  EXPECT_EQ(console.ask(ana, {{"type", "redo"}, {"id", 2}, {"based_on", 3}}).at("revision"), 4);
   EXPECT_EQ(weight_of_east(ben.line->of("targets").back()), 3.0);
-  EXPECT_EQ(console.ask(ana, {{"type", "redo"}, {"id", 3}}).at("code"), "not_now");
+  EXPECT_EQ(console.ask(ana, {{"type", "redo"}, {"id", 3}, {"based_on", 4}}).at("code"), "not_now");
 }
 
 TEST(HubTest, Who_edits_what_is_shown_until_they_leave) {
@@ -451,89 +452,6 @@ TEST(HubTest, The_missions_own_events_change_targets_and_are_told) {
   const Json targets = ana.line->of("targets").back();
   EXPECT_EQ(targets.at("by"), "mission");
   EXPECT_EQ(weight_of_east(targets), 4.0);
-}
-
-TEST(HubTest, After_a_restart_it_waits_for_somebody_to_resume) {
-  ConsoleForTests console;
-  const runtime::Mission mission = runtime::small_mission();
-  runtime::SavedFlight saved;
-  saved.revision = 9;
-  ConsoleForTests before;
-  before.fly();
-  saved.past = before.newest().past;
-  console.desk.begin(mission, &saved);
-  const Visitor ana = console.join();
-  console.pass(600ms);
-  EXPECT_EQ(ana.line->of("targets").front().at("by"), "restored");
-  EXPECT_EQ(console.hub.state().at("waits_for_resume"), true);
-  EXPECT_EQ(console.hub.state().at("active"), 0);
-  EXPECT_EQ(console.ask(ana, {{"type", "resume"}, {"id", 1}, {"drones", "all"}}, 200ms).at("type"), "ack");
-  EXPECT_EQ(console.hub.state().at("waits_for_resume"), false);
-  EXPECT_EQ(console.hub.state().at("active"), 3);
-}
-
-class KeptFlightTest : public ::testing::Test {
- protected:
-  KeptFlightTest() {
-    std::filesystem::remove_all(folder);
-    store = std::make_shared<runtime::FlightStore>(folder);
-  }
-  ~KeptFlightTest() override { std::filesystem::remove_all(folder); }
-  [[nodiscard]] std::vector<swarm::Intent> saved_orders() const {
-    std::vector<swarm::Intent> orders;
-    const auto saved = store->load();
-    for (const runtime::SavedFlight::Drone& drone : saved->drones) orders.push_back(drone.order);
-    return orders;
-  }
-
-  std::filesystem::path folder = std::filesystem::path(::testing::TempDir()) / "vigil_kept_flight_test";
-  std::shared_ptr<runtime::FlightStore> store;
-};
-
-TEST_F(KeptFlightTest, An_order_takes_effect_at_once_and_is_acknowledged_when_it_is_saved) {
-  ConsoleForTests console({}, store);
-  console.fly();
-  const Visitor ana = console.join();
-  console.is_desk_at_work = false;
-  console.say(ana, {{"type", "land_all"}, {"id", 1}});
-  console.say(ana, {{"type", "mark_failed"}, {"id", 2}, {"drones", {"b"}}});
-  console.pass(300ms);
-  EXPECT_EQ(console.newest().snapshot.drones[0].activity, swarm::Activity::kGrounded);
-  EXPECT_TRUE(ana.line->answered().empty());
-  console.is_desk_at_work = true;
-  console.pass(20ms);
-  EXPECT_EQ(ana.line->answer(1).at("type"), "ack");
-  EXPECT_EQ(ana.line->answer(2).at("type"), "ack");
-  EXPECT_EQ(saved_orders()[1], swarm::Intent::kMarkedFailed);
-}
-
-TEST_F(KeptFlightTest, An_order_under_a_paused_clock_is_saved_before_it_is_acknowledged_as_pending) {
-  ConsoleForTests console({}, store);
-  console.fly();
-  const Visitor ana = console.join();
-  console.ask(ana, {{"type", "pause"}, {"id", 1}});
-  EXPECT_EQ(console.ask(ana, {{"type", "land"}, {"id", 2}, {"drones", {"b"}}}, 300ms).at("pending"), true);
-  EXPECT_EQ(saved_orders()[1], swarm::Intent::kLand);
-}
-
-TEST_F(KeptFlightTest, A_restart_goes_on_with_the_orders_that_stood_and_nothing_takes_off) {
-  using swarm::Activity;
-  {  // a run of the program that just ends
-    ConsoleForTests console({}, store);
-    console.fly();
-    const Visitor ana = console.join();
-    console.ask(ana, {{"type", "mark_failed"}, {"id", 1}, {"drones", {"a"}}});
-    console.ask(ana, {{"type", "emergency_stop"}, {"id", 2}, {"drones", {"b"}}});
-    console.ask(ana, {{"type", "pause"}, {"id", 3}});
-    console.ask(ana, {{"type", "land"}, {"id", 4}, {"drones", {"c"}}}, 300ms);
-  }
-  const auto saved = store->load();
-  ConsoleForTests console({}, store);
-  console.desk.begin(runtime::parse_mission(saved->targets_text, "the saved state"), &*saved);
-  std::vector<Activity> seen;
-  console.pass(100ms);
-  for (const swarm::DroneSnapshot& drone : console.newest().snapshot.drones) seen.push_back(drone.activity);
-  EXPECT_EQ(seen, (std::vector<Activity>{Activity::kMarkedFailed, Activity::kEmergencyStop, Activity::kGrounded}));
 }
 
 TEST(HubTest, At_the_end_everybody_is_told_goodbye) {

@@ -1,6 +1,7 @@
 #include "vigil/adapters/console/json_reader.hpp"
 
 #include <algorithm>
+#include <set>
 
 #include <fmt/format.h>
 
@@ -15,7 +16,44 @@ bool is_point(const nlohmann::json& value) {
   return value.is_array() && value.size() == 2 && value[0].is_number() && value[1].is_number();
 }
 
+/// Sees the members' names as a parser comes upon them, and keeps the first that its object had before.
+class MemberWatch {
+ public:
+  using Event = nlohmann::json::parse_event_t;
+
+  void see(Event event, const nlohmann::json& parsed) {
+    if (event == Event::object_start) open_.emplace_back();
+    if (event == Event::object_end) open_.pop_back();
+    if (event != Event::key || !twice_.empty()) return;
+    const auto& name = parsed.get_ref<const std::string&>();
+    if (!open_.back().insert(name).second) twice_ = name.empty() ? "(without a name)" : name;
+  }
+  [[nodiscard]] const std::string& twice() const { return twice_; }
+
+ private:
+  std::vector<std::set<std::string>> open_;
+  std::string twice_;
+};
+
 }  // namespace
+
+ParsedJson parse_json(std::string_view text) {
+  MemberWatch watch;
+  const auto see = [&watch](int /*depth*/, MemberWatch::Event event, const nlohmann::json& parsed) {
+    watch.see(event, parsed);
+    return true;
+  };
+  ParsedJson parsed;
+  parsed.value = nlohmann::json::parse(text, see, false);
+  parsed.twice = watch.twice();
+  return parsed;
+}
+
+std::string ParsedJson::problem() const {
+  if (value.is_discarded()) return "it is not JSON in UTF-8";
+  if (twice.empty()) return {};
+  return fmt::format("{}: is there twice in one object; give it once", runtime::on_one_line(twice, 60));
+}
 
 JsonReader::JsonReader(const nlohmann::json& object, std::string place) : object_(object), place_(std::move(place)) {
   if (!object.is_object()) throw JsonFault(fmt::format("{}: must be a JSON object", place_.empty() ? "it" : place_));

@@ -21,6 +21,16 @@ class JsonFault : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
+/// A text as JSON: of a member that is there twice the value is the last, and `twice` its name.
+struct ParsedJson {
+  nlohmann::json value;
+  std::string twice;
+
+  /// What is wrong with it, for people; empty where nothing is.
+  [[nodiscard]] std::string problem() const;
+};
+[[nodiscard]] ParsedJson parse_json(std::string_view text);
+
 /// Reads the members of one JSON object; whatever is wrong is thrown as JsonFault with its place.
 class JsonReader {
  public:

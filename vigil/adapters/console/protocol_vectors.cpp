@@ -236,6 +236,10 @@ const std::vector<std::pair<std::string, std::string>>& client_texts() {
       {"confirm", R"({"type":"confirm","received":123})"},
       {"ping", R"({"type":"ping","id":1})"},
       {"land some", R"({"type":"land","id":2,"drones":["a","b"]})"},
+      {"land some of the flight that was seen",
+       R"({"type":"land","id":23,"run":"5f1c09d2a7b34e68","epoch":3,"drones":["a","b"]})"},
+      {"undo", R"({"type":"undo","id":24,"based_on":7})"},
+      {"redo", R"({"type":"redo","id":25,"based_on":8})"},
       {"take off all", R"({"type":"take_off","id":3,"drones":"all"})"},
       {"land all", R"({"type":"land_all","id":4})"},
       {"emergency stop", R"({"type":"emergency_stop","id":5,"drones":"all"})"},
@@ -266,6 +270,11 @@ const std::vector<std::pair<std::string, std::string>>& client_texts() {
       {"confirm nothing", R"({"type":"confirm"})"},
       {"confirm with an id", R"({"type":"confirm","received":123,"id":1})"},
       {"perhaps to confirm", R"({"type":"hello","confirms":"yes"})"},
+      {"a member twice", R"({"type":"land","id":26,"drones":["a"],"drones":["b"]})"},
+      {"a member of a member twice",
+       R"({"type":"edit","id":27,"based_on":7,"edits":[{"op":"set_weight","kind":"cluster","name":"x","weight":1,"weight":9}]})"},
+      {"undo of what was not seen", R"({"type":"undo","id":28})"},
+      {"an epoch that is no number", R"({"type":"land","id":29,"epoch":"3","drones":"all"})"},
       {"nobody", R"({"type":"land","id":1,"drones":[]})"},
       {"wrong word for all", R"({"type":"land","id":1,"drones":"everybody"})"},
       {"unknown role", R"({"type":"hello","role":"admiral"})"},
@@ -385,7 +394,7 @@ Json server_messages() {
   const auto add = [&list](const char* name, Json message) {
     list.push_back({{"name", name}, {"message", std::move(message)}});
   };
-  add("hello", hello_json(ana, "vigil 0.1.0", true, 2048.25));
+  add("hello", hello_json(ana, "vigil 0.1.0", "5f1c09d2a7b34e68", true, 2048.25));
   const RecordingFacts recording{
       .begin_s = 0.0, .end_s = 23.0, .ticks = 1151, .spacing_s = 0.02, .incomplete = "it was cut off"};
   add("mission", shortened(mission_message(mission, 3, false)));

@@ -11,6 +11,8 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include "vigil/adapters/console/areas_geojson.hpp"
+#include "vigil/adapters/console/client_message.hpp"
 #include "vigil/adapters/console/console_for_tests.hpp"
 #include "vigil/runtime/mission_file.hpp"
 
@@ -306,7 +308,7 @@ TEST_F(LockedRestTest, Every_answer_that_is_described_is_given_and_no_other) {
   ask(with(posts[2], anybody));
   ask(with(gets.back(), viewer));
   ask(with(posts[0], anybody));
-  ask(with(command({{"type", "undo"}, {"id", 1}}), anybody));
+  ask(with(command({{"type", "undo"}, {"id", 1}, {"based_on", 1}}), anybody));
   console.most_tasks = 2;
   rest.answer(with(posts[0], anybody), [](const HttpAnswer&) {});  // another program is faster by a moment
   ask(with(posts[0], anybody));
@@ -322,6 +324,32 @@ TEST_F(LockedRestTest, Every_answer_that_is_described_is_given_and_no_other) {
   std::vector<std::string> differing;
   std::ranges::set_symmetric_difference(given, described(), std::back_inserter(differing));
   EXPECT_EQ(differing, std::vector<std::string>{});
+}
+
+TEST(JsonMembers, One_that_is_there_twice_is_named_wherever_it_is) {
+  const auto reason = [](std::string_view text) {
+    const auto parsed = parse_client_message(text);
+    const auto* refusal = std::get_if<MessageRefusal>(&parsed);
+    return refusal == nullptr ? "" : refusal->reason;
+  };
+  EXPECT_EQ(reason(R"({"type":"land","id":1,"drones":["a"],"drones":["b"]})"),
+            "drones: is there twice in one object; give it once");
+  EXPECT_EQ(reason(R"({"type":"editing","id":1,"what":[{"kind":"area","name":"a","name":"b"}]})"),
+            "name: is there twice in one object; give it once");
+  EXPECT_EQ(reason(R"({"type":"editing","id":1,"what":[{"kind":"area","name":"a"},{"kind":"area","name":"b"}]})"), "");
+  const auto preview = parse_preview(R"({"seconds":10,"seconds":20})");
+  EXPECT_EQ(std::get<MessageRefusal>(preview).reason, "seconds: is there twice in one object; give it once");
+  const auto areas = edits_of_geojson(R"({"type":"FeatureCollection","features":[],"features":[]})", {});
+  EXPECT_EQ(std::get<std::string>(areas), "features: is there twice in one object; give it once");
+}
+
+TEST(JsonMembers, The_refusal_of_one_that_is_there_twice_has_the_id_where_that_is_there_once) {
+  const auto id = [](std::string_view text) {
+    const auto parsed = parse_client_message(text);
+    return std::get<MessageRefusal>(parsed).id;
+  };
+  EXPECT_EQ(id(R"({"type":"land","id":5,"drones":["a"],"drones":["b"]})"), 5U);
+  EXPECT_EQ(id(R"({"type":"ping","id":5,"id":6})"), std::nullopt);
 }
 
 }  // namespace

@@ -3,6 +3,7 @@
 #include <array>
 #include <chrono>
 #include <exception>
+#include <random>
 #include <utility>
 
 #include <boost/asio/io_context.hpp>
@@ -286,6 +287,12 @@ std::optional<net::ssl::context> tls_of(const ServerOptions& options) {
   return context;
 }
 
+/// Whoever looked at an earlier run of the program must not take this one for it: chance, not a counter.
+std::string name_of_a_run() {
+  std::random_device chance;
+  return fmt::format("{:08x}{:08x}", chance(), chance());
+}
+
 }  // namespace
 
 class Server::Sockets {
@@ -294,7 +301,7 @@ class Server::Sockets {
       : page_(options.page),
         gate_(options.address, options.names),
         tls_(tls_of(options)),
-        hub_({options.program, options.tokens, options.recording_folder},
+        hub_({options.program, options.tokens, options.recording_folder, name_of_a_run()},
              {monotonic_now, wall_ms_now,
               [this](std::function<void(Desk&)> task) { return desk_thread_ && desk_thread_->post(std::move(task)); },
               [this](const WhyQuestion& question) { return replay_desk_ != nullptr && replay_desk_->ask(question); }}),

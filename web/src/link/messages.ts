@@ -36,6 +36,7 @@ const helloShape = record({
   role,
   roles: list(role, 10),
   login: flag,
+  run: name,
   steady_ms: finite,
 });
 

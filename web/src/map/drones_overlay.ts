@@ -4,7 +4,8 @@ import type { FieldFrame } from '../model/field_frame';
 import { edges, nearestOnSegment, distance, type Point } from '../model/geometry';
 import type { NoFly } from '../model/targets';
 import { metres } from '../model/units';
-import { at, isOnScreen, label, type Pen } from './pen';
+import { LabelRoom } from './label_room';
+import { at, isOnScreen, label, labelBox, type Pen } from './pen';
 
 /** What is written and drawn about single drones; with many drones only about the selected ones. */
 export interface DronesScene {
@@ -30,21 +31,33 @@ export function drawDroneNotes(pen: Pen, scene: DronesScene): void {
   for (const row of scene.snapshot.holding)
     if (isNoted.has(row.drone) && (isFew || scene.selected.has(row.drone))) drawHeldBy(pen, scene, row);
   for (const drone of scene.selected) if (isNoted.has(drone)) drawVectors(pen, scene, drone);
-  if (scene.showsLabels) for (const drone of noted) drawId(pen, scene, drone);
-  if (scene.hovered !== null && !(scene.showsLabels && isNoted.has(scene.hovered))) drawId(pen, scene, scene.hovered);
+  const room = new LabelRoom();
+  const named = new Set(scene.hovered === null ? [] : [scene.hovered]);
+  if (scene.showsLabels) for (const drone of inImportance(scene, noted)) named.add(drone);
+  for (const drone of named) drawId(pen, scene, drone, room);
+}
+
+/** Selected ones first, then those that something is wrong with: where labels would overlap, the first one stands. */
+function inImportance(scene: DronesScene, drones: readonly number[]): number[] {
+  const ranks = { alarm: 1, warning: 2, info: 3, ok: 4 };
+  const rank = (drone: number): number =>
+    scene.selected.has(drone) ? 0 : ranks[activityOf(scene.snapshot, drone).severity];
+  return [...drones].sort((a, b) => rank(a) - rank(b) || a - b);
 }
 
 const placeOf = (scene: DronesScene, drone: number): Point => [scene.places[2 * drone]!, scene.places[2 * drone + 1]!];
 
-function drawId(pen: Pen, scene: DronesScene, drone: number): void {
+function drawId(pen: Pen, scene: DronesScene, drone: number, room: LabelRoom): void {
   const [x, y] = at(pen, placeOf(scene, drone));
   if (!isOnScreen(pen.size, [x, y])) return;
   const { palette } = pen;
   const activity = activityOf(scene.snapshot, drone);
   const isActive = activity.severity === 'ok';
   const colour = activity.severity === 'alarm' ? palette.failure : isActive ? palette.text : palette.warning;
-  label(pen, scene.ids[drone]!, x + 13, y - 9, colour);
-  if (!isActive) label(pen, activity.label, x + 13, y + 6, colour);
+  const id = scene.ids[drone]!;
+  if (room.take(labelBox(pen, id, x + 13, y - 9))) label(pen, id, x + 13, y - 9, colour);
+  if (isActive || !room.take(labelBox(pen, activity.label, x + 13, y + 6))) return;
+  label(pen, activity.label, x + 13, y + 6, colour);
 }
 
 /** A dashed line to what holds the drone, with the distance. */

@@ -1,5 +1,6 @@
 import type { Point } from '../model/geometry';
 import { toScreen, type Camera, type Size } from './camera';
+import type { Box } from './label_room';
 import type { Palette } from './palette';
 
 export type Canvas2d = CanvasRenderingContext2D;
@@ -27,6 +28,20 @@ export function tracePath(pen: Pen, points: readonly Point[], closed: boolean): 
   if (closed) context.closePath();
 }
 
+/** How high a line of text is. */
+const kLinePx = 14;
+
+/** Where a label with this baseline stands, as label() would draw it. */
+export function labelBox(pen: Pen, text: string, x: number, y: number): Box {
+  pen.context.font = kFont;
+  const width = pen.context.measureText(text).width;
+  const left = isCutOff(pen, x, width) ? x - width : x;
+  return [left, y - kLinePx + 3, left + width, y + 3];
+}
+
+/** Whether a label to the right would reach below the buttons at the map's edge. */
+const isCutOff = (pen: Pen, x: number, width: number): boolean => x + width > pen.size.width - 66;
+
 /** Text with a halo, so that it reads on any layer. */
 export function label(
   pen: Pen,
@@ -36,9 +51,9 @@ export function label(
   colour: string,
   align: CanvasTextAlign = 'left',
 ): void {
-  const { context, palette, size } = pen;
+  const { context, palette } = pen;
   context.font = kFont;
-  const isCut = align === 'left' && x + context.measureText(text).width > size.width - 66;
+  const isCut = align === 'left' && isCutOff(pen, x, context.measureText(text).width);
   context.textAlign = isCut ? 'right' : align;
   context.lineJoin = 'round';
   context.lineWidth = 3.5;

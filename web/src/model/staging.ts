@@ -63,6 +63,15 @@ export function rebase(base: Targets, staging: Staging): { staging: Staging; los
   return { staging: { ...staging, steps: kept, undone: lost.length > 0 ? [] : staging.undone }, lost };
 }
 
+/**
+ * What is left when the steps that were sent have become the committed targets: what was staged, or taken back, after
+ * they were sent. A step is told by its identity: who changes a step makes another.
+ */
+export function unsent(staging: Staging, sent: readonly Step[], revision: number): Staging {
+  const isUnsent = (step: Step): boolean => !sent.includes(step);
+  return { basedOn: revision, steps: staging.steps.filter(isUnsent), undone: staging.undone.filter(isUnsent) };
+}
+
 /** The entries that staged edits change, for other operators to see. */
 export function touched(staging: Staging): EntryName[] {
   const names = new Map<string, EntryName>();

@@ -4,6 +4,7 @@ import type { HoldingRow, Snapshot } from '../link/frames';
 import type { FieldFrame } from '../model/field_frame';
 import type { Point } from '../model/geometry';
 import { activityOf, batteryOf, firstHolders, holderName, secondsOf, speedOf } from '../model/drones';
+import { steadyRows } from '../model/steady_rows';
 import { age, coordinate, metres, percent } from '../model/units';
 import { useApp } from './app_context';
 import { Icon, type IconName } from './icons';
@@ -74,7 +75,9 @@ export function FleetTable() {
   const { snapshot } = session;
   const selected = editor.selectedDrones.value;
   const holders = snapshot ? firstHolders(snapshot) : new Map<number, HoldingRow>();
-  const drones = snapshot ? chosen(filter.value, snapshot, holders, selected) : [];
+  const wanted = snapshot ? chosen(filter.value, snapshot, holders, selected) : [];
+  const hand = useHand();
+  const drones = useSteadyRows(wanted, hand.isThere, `${filter.value} ${session.mission.value?.epoch} ${snapshot?.n}`);
   const shown = Math.ceil((view.current?.clientHeight ?? 400) / rowHeight) + 8;
   const first = Math.max(0, Math.min(drones.length - shown, Math.floor(scroll.value / rowHeight) - 4));
   const rows = drones.slice(first, first + shown);
@@ -110,6 +113,7 @@ export function FleetTable() {
         tabIndex={0}
         role="region"
         aria-label="Fleet table"
+        {...hand.events}
         onScroll={(event) => (scroll.value = event.currentTarget.scrollTop)}
       >
         <table aria-rowcount={drones.length + 1} style={widths(session.field.value, session.droneIds.value)}>
@@ -141,6 +145,27 @@ export function FleetTable() {
       </div>
     </section>
   );
+}
+
+/** Whether somebody is at the table: with the pointer over it, or with the focus in a row. */
+function useHand() {
+  const isPointing = useSignal(false);
+  const hasFocus = useSignal(false);
+  const events = {
+    onPointerEnter: () => (isPointing.value = true),
+    onPointerLeave: () => (isPointing.value = false),
+    onFocusIn: (event: FocusEvent) => (hasFocus.value = (event.target as Element).closest('tr') !== null),
+    onFocusOut: () => (hasFocus.value = false),
+  };
+  return { isThere: isPointing.value || hasFocus.value, events };
+}
+
+/** The rows as they are wanted; while somebody is at the table none moves, so that a click hits what was aimed at. */
+function useSteadyRows(wanted: readonly number[], isHandThere: boolean, of: string): readonly number[] {
+  const shown = useRef<{ of: string; rows: readonly number[] }>({ of, rows: wanted });
+  const rows = isHandThere && shown.current.of === of ? steadyRows(shown.current.rows, wanted) : wanted;
+  shown.current = { of, rows };
+  return rows;
 }
 
 /** Scrolls as little as it takes to see the row; what is chosen on the map is then seen in the table as well. */

@@ -10,7 +10,7 @@ import {
   type VelocityKind,
 } from '../model/drones';
 import { age, coordinate, metres, metresPerSecond, percent } from '../model/units';
-import { kOrderNames, kOrders, type Order } from '../session/fleet_orders';
+import { kOrderNames, kOrders, wantsSelection, type Order } from '../session/fleet_orders';
 import { useApp } from './app_context';
 import { HoldButton } from './hold_button';
 import { Icon, type IconName } from './icons';
@@ -38,7 +38,7 @@ export function Orders() {
         <span class="dim">Orders for</span> <strong>{who}</strong>
         {selected.length === 0 && (
           <span class="dim" data-testid="keys-want-selection">
-            ; keys: only selected ones
+            ; keys: only selected ones; Land, Mark failed: select drones first
           </span>
         )}
       </p>
@@ -47,7 +47,10 @@ export function Orders() {
           <button
             key={order}
             type="button"
-            disabled={!orders.may(order)}
+            disabled={!orders.may(order) || (selected.length === 0 && wantsSelection(order))}
+            title={
+              selected.length === 0 && wantsSelection(order) ? 'Select drones first; LAND ALL lands all' : undefined
+            }
             onClick={() => orders.to(order, selected.length === 0 ? 'all' : selected)}
           >
             <Icon name={kOrderIcons[order]} />

@@ -2,19 +2,21 @@ import { readAreas, writeAreas } from '../model/geojson';
 import type { Edit } from '../model/targets';
 import { useApp } from './app_context';
 import { Icon } from './icons';
-import { usePopover } from './use_popover';
+import { PopoverButton } from './popover_button';
 
 const kMostFileBytes = 1024 * 1024;
+
+const kFace = (
+  <>
+    <Icon name="file" />
+    <span class="label">Mission</span>
+  </>
+);
 
 /** Save and load missions (YAML), import and export areas (GeoJSON). */
 export function MissionMenu() {
   const app = useApp();
   const { session, editor } = app;
-  const { isOpen, setOpen, root } = usePopover();
-  const act = (work: () => void) => () => {
-    setOpen(false);
-    work();
-  };
   const exportAreas = (): void => {
     const name = session.mission.value?.mission.name ?? 'mission';
     download(`${name}.geojson`, 'application/geo+json', JSON.stringify(writeAreas(session.committed.value), null, 2));
@@ -35,48 +37,46 @@ export function MissionMenu() {
     await session.command({ type: 'load_mission', yaml: await file.text() }, `${file.name} is flown now.`);
   };
   return (
-    <div class="popover" ref={root}>
-      <button
-        type="button"
-        class="quiet"
-        aria-label="Mission"
-        title="Mission"
-        aria-expanded={isOpen}
-        onClick={() => setOpen(!isOpen)}
-      >
-        <Icon name="file" />
-        <span class="label">Mission</span>
-      </button>
-      {isOpen && (
-        <div class="menu">
-          <button type="button" onClick={act(() => void saveMission(app.token(), session.mission.value?.mission.name))}>
-            Save mission (YAML)
-          </button>
-          <FileButton
-            label="Load mission (YAML)…"
-            accept=".yaml,.yml"
-            disabled={!session.mayOperate.value}
-            take={(file) => act(() => void loadMission(file))()}
-          />
-          <button type="button" onClick={act(exportAreas)}>
-            Export areas (GeoJSON)
-          </button>
-          <FileButton
-            label="Import areas (GeoJSON)…"
-            accept=".geojson,.json"
-            disabled={!session.mayOperate.value}
-            take={(file) => act(() => void importAreas(file))()}
-          />
-          <button
-            type="button"
-            disabled={!session.mayOperate.value}
-            onClick={act(() => void session.command({ type: 'start_afresh' }, 'Coverage starts afresh.'))}
-          >
-            Start coverage afresh
-          </button>
-        </div>
-      )}
-    </div>
+    <PopoverButton label="Mission" title="Mission" face={kFace}>
+      {(close) => {
+        const act = (work: () => void) => () => {
+          close();
+          work();
+        };
+        return (
+          <>
+            <button
+              type="button"
+              onClick={act(() => void saveMission(app.token(), session.mission.value?.mission.name))}
+            >
+              Save mission (YAML)
+            </button>
+            <FileButton
+              label="Load mission (YAML)…"
+              accept=".yaml,.yml"
+              disabled={!session.mayOperate.value}
+              take={(file) => act(() => void loadMission(file))()}
+            />
+            <button type="button" onClick={act(exportAreas)}>
+              Export areas (GeoJSON)
+            </button>
+            <FileButton
+              label="Import areas (GeoJSON)…"
+              accept=".geojson,.json"
+              disabled={!session.mayOperate.value}
+              take={(file) => act(() => void importAreas(file))()}
+            />
+            <button
+              type="button"
+              disabled={!session.mayOperate.value}
+              onClick={act(() => void session.command({ type: 'start_afresh' }, 'Coverage starts afresh.'))}
+            >
+              Start coverage afresh
+            </button>
+          </>
+        );
+      }}
+    </PopoverButton>
   );
 
   async function saveMission(token: string, name = 'mission'): Promise<void> {

@@ -59,6 +59,7 @@ export function Plot(props: Props) {
       style={{ margin: 0 }}
       role="img"
       aria-label={`${props.title}: ${props.now}${fromTo(props.range)}. ${props.description}`}
+      title={props.description}
     >
       <h3 aria-hidden="true">
         <span>{props.title}</span>

@@ -40,7 +40,7 @@ export function Plots() {
         isLogarithmic
       />
       <Plot
-        title="Worst age of an area"
+        title="Worst age"
         now={duration(snapshot?.worstAgeS)}
         description="Time since the part that waited longest was seen."
         range={range}
@@ -49,16 +49,16 @@ export function Plots() {
         atLeast={1}
       />
       <Plot
-        title={isFew ? 'Distances, R_s dashed' : 'Least distance, R_s dashed'}
+        title={isFew ? 'Distances, R_s' : 'Least distance'}
         now={metres(snapshot?.leastPairM)}
-        description="Distances between drones against the least that is allowed."
+        description="Distances between drones, and dashed R_s, the least that is allowed."
         range={range}
         series={isFew ? lines(Series.pairNames(ids)) : lines(['least'])}
         data={isFew ? drawn(() => series.ofPairs(span)) : ofSwarm(2)}
         limit={separation}
       />
       <Plot
-        title={isFew ? 'Control inputs |u|' : 'Fastest control input'}
+        title={isFew ? 'Inputs |u|' : 'Fastest input'}
         now={metresPerSecond(series.fastest)}
         description="Speed that was asked of the drones."
         range={range}

@@ -5,8 +5,8 @@ import { useApp } from './app_context';
 import { HoldButton } from './hold_button';
 import { Icon } from './icons';
 import { MissionMenu } from './mission_menu';
+import { PopoverButton } from './popover_button';
 import { SpeedChoice } from './speed_choice';
-import { usePopover } from './use_popover';
 import { WhoMenu } from './who_menu';
 
 const kSpeeds = [1, 2, 5, 10, 20];
@@ -91,30 +91,17 @@ function useChoices(): readonly Choice[] {
 }
 
 function MoreMenu({ choices }: { choices: readonly Choice[] }) {
-  const { isOpen, setOpen, root } = usePopover();
   return (
-    <div class="popover when-narrow" ref={root}>
-      <button
-        type="button"
-        class="quiet"
-        aria-label="More"
-        title="More"
-        aria-expanded={isOpen}
-        onClick={() => setOpen(!isOpen)}
-      >
-        ⋯
-      </button>
-      {isOpen && (
-        <div class="menu">
-          {choices.map(({ icon, label, act }) => (
-            <button key={label} type="button" onClick={() => (setOpen(false), act())}>
-              <Icon name={icon} />
-              {label}
-            </button>
-          ))}
-        </div>
-      )}
-    </div>
+    <PopoverButton label="More" title="More" face="⋯" isForNarrow>
+      {(close) =>
+        choices.map(({ icon, label, act }) => (
+          <button key={label} type="button" onClick={() => (close(), act())}>
+            <Icon name={icon} />
+            {label}
+          </button>
+        ))
+      }
+    </PopoverButton>
   );
 }
 

@@ -1,34 +1,31 @@
 import { useState } from 'preact/hooks';
 import { useApp } from './app_context';
 import { Icon } from './icons';
-import { usePopover } from './use_popover';
+import { PopoverButton } from './popover_button';
 
 const kRoleNames = { viewer: 'viewer', operator: 'operator', safety_pilot: 'safety pilot' } as const;
 
 /** Who is at this console, and who else is there. */
 export function WhoMenu() {
   const { session } = useApp();
-  const { isOpen, setOpen, root } = usePopover();
   const hello = session.hello.value;
   const others = session.operators.value.filter((operator) => operator.client !== hello?.client);
   const who = hello ? `${hello.name}, ${kRoleNames[hello.role]}` : 'nobody yet';
   return (
-    <div class="popover" ref={root}>
-      <button
-        type="button"
-        class="quiet"
-        aria-expanded={isOpen}
-        aria-label={`Operators: ${who}${others.length > 0 ? ` and ${others.length} more` : ''}`}
-        onClick={() => setOpen(!isOpen)}
-      >
-        <Icon name="person" />
-        <span data-testid="who">
-          <span class="own-name">{hello?.name ?? '–'}</span>
-          {others.length > 0 && <span class="ok"> +{others.length}</span>}
-        </span>
-      </button>
-      {isOpen && (
-        <div class="menu">
+    <PopoverButton
+      label={`Operators: ${who}${others.length > 0 ? ` and ${others.length} more` : ''}`}
+      face={
+        <>
+          <Icon name="person" />
+          <span data-testid="who">
+            <span class="own-name">{hello?.name ?? '–'}</span>
+            {others.length > 0 && <span class="ok"> +{others.length}</span>}
+          </span>
+        </>
+      }
+    >
+      {(close) => (
+        <>
           <p class="pad" style={{ margin: '6px 0 0' }}>
             You are <strong>{who}</strong>.
           </p>
@@ -44,10 +41,10 @@ export function WhoMenu() {
               ))}
             </ul>
           )}
-          <WhoForm done={() => setOpen(false)} />
-        </div>
+          <WhoForm done={close} />
+        </>
       )}
-    </div>
+    </PopoverButton>
   );
 }
 

@@ -36,6 +36,7 @@ export class Editor {
   /** Where the keyboard would act on the map; null until an arrow key is pressed there. */
   readonly cursor = signal<Point | null>(null);
   readonly isCommitting = signal(false);
+  private isSteppingBack = false;
 
   readonly selectedEntry = computed(() => {
     const which = this.selected.value;
@@ -169,14 +170,23 @@ export class Editor {
     if (this.sketch.value.length > 0) this.sketch.value = this.sketch.value.slice(0, -1);
     else if (session.isStaged.value) session.restage(undoStep(session.staging.value));
     else if (!session.targets.value?.can_undo) session.notify('info', 'Nothing to undo.');
-    else if (this.mayEdit()) void session.command({ type: 'undo' }, `Undone: ${session.targets.value.undo_what}`);
+    else this.stepBack('undo', `Undone: ${session.targets.value.undo_what}`);
   }
 
   redo(): void {
     const { session } = this;
     if (session.staging.value.undone.length > 0) session.restage(redoStep(session.staging.value));
     else if (!session.targets.value?.can_redo) session.notify('info', 'Nothing to redo.');
-    else if (this.mayEdit()) void session.command({ type: 'redo' }, `Done again: ${session.targets.value.redo_what}`);
+    else this.stepBack('redo', `Done again: ${session.targets.value.redo_what}`);
+  }
+
+  /** One at a time: the next is about the targets that this one leaves. */
+  private stepBack(type: 'undo' | 'redo', done: string): void {
+    const { session } = this;
+    if (this.isSteppingBack || !this.mayEdit()) return;
+    this.isSteppingBack = true;
+    const based_on = session.targets.value?.revision ?? 0;
+    void session.command({ type, based_on }, done).then(() => (this.isSteppingBack = false));
   }
 
   // --- points and shapes ------------------------------------------------------------------------------------------

@@ -16,6 +16,9 @@ export const kOrderNames: Record<Order, string> = {
   give_back: 'Give back',
 };
 
+/** What is never asked of all drones by a button that nobody chose drones for: LAND ALL says what it does. */
+export const wantsSelection = (order: Order): boolean => order === 'land' || order === 'mark_failed';
+
 /** Orders to the selected drones, or to all. */
 export class FleetOrders {
   constructor(
@@ -37,7 +40,7 @@ export class FleetOrders {
   to(order: Order, drones: readonly string[] | 'all'): void {
     const isAll = drones === 'all' || drones.length === this.session.droneIds.value.length;
     const who = isAll ? 'all drones' : drones.length > 3 ? `${drones.length} drones` : drones.join(', ');
-    const command = { type: order, drones: isAll ? 'all' : drones };
+    const command = this.session.forThisFlight({ type: order, drones: isAll ? 'all' : drones });
     const done = `${kOrderNames[order]}: ${who}`;
     if (order === 'land') void this.session.bringDown(command, done, done);
     else void this.session.command(command, done);
@@ -48,10 +51,8 @@ export class FleetOrders {
     const drones = this.selectedIds();
     const who = drones.length === 0 ? 'all drones' : drones.length > 3 ? `${drones.length} drones` : drones.join(', ');
     const place_m = [place[0], place[1]];
-    void this.session.command(
-      { type: 'go_to', drones: drones.length === 0 ? 'all' : drones, place_m },
-      `On the way: ${who}`,
-    );
+    const command = { type: 'go_to', drones: drones.length === 0 ? 'all' : drones, place_m };
+    void this.session.command(this.session.forThisFlight(command), `On the way: ${who}`);
   }
 
   landAll(): void {

@@ -3,7 +3,7 @@ import { ConsoleLink, type Answer, type Command, type LinkState, type World } fr
 import type { AgeMap, Coverage, Density, Frame, Snapshot, Trails } from '../link/frames';
 import type { Hello, Mission, Operator, ServerMessage, Status, SwarmEvent, TargetsMessage } from '../link/messages';
 import { FieldFrame } from '../model/field_frame';
-import { draftOf, isStaged, nothingStaged, rebase, touched, type Staging } from '../model/staging';
+import { draftOf, isStaged, nothingStaged, rebase, touched, unsent, type Staging, type Step } from '../model/staging';
 import { kNoTargets, type EntryName, type Targets } from '../model/targets';
 import { deedOf } from '../model/deeds';
 import { sentence } from '../model/units';
@@ -19,6 +19,13 @@ export interface Notice {
 }
 
 const kMostEvents = 1000;
+/** An order that was accepted and that no tick has taken yet. */
+interface Waiting {
+  readonly type: string;
+  readonly notice: number;
+  readonly done: string | undefined;
+}
+
 /** Alarms stay until somebody dismisses them; so many are kept, and other messages besides. */
 const kMostAlarms = 50;
 const kMostOthers = 4;
@@ -92,6 +99,12 @@ export class Session {
   private targetsWhileCommitting: TargetsMessage | null = null;
   /** What is staged became this revision, whose targets have not come yet. */
   private committedRevision: number | null = null;
+  /** The staged steps that were sent to be committed; those that come after them are not among them. */
+  private sent: readonly Step[] = [];
+
+  private waiting: readonly Waiting[] = [];
+  /** Which flight `mission` is; see protocol/README.md. */
+  private run = '';
 
   private readonly missionListeners = new Set<() => void>();
   private readonly snapshotListeners = new Set<(snapshot: Snapshot) => void>();
@@ -135,17 +148,17 @@ export class Session {
   }
 
   /**
-   * Shown for a while, or for `lastsMs` where it makes no sense any more after that; an alarm until somebody dismisses it.
-   * Gives back the notice's number.
+   * Shown for a while, or for `lastsMs` where it makes no sense any more after that (null: until it is dismissed); an
+   * alarm until somebody dismisses it. Gives back the notice's number.
    */
-  notify(kind: NoticeKind, text: string, lastsMs = kind === 'info' ? 4000 : 9000): number {
+  notify(kind: NoticeKind, text: string, lastsMs: number | null = kind === 'info' ? 4000 : 9000): number {
     const notice = { number: this.nextNotice++, kind, text };
     const alarms = this.notices.value.filter((one) => one.kind === 'alarm').slice(-kMostAlarms);
     // What is said once more takes the place of what was said before.
     const isOther = (one: Notice): boolean => one.kind !== 'alarm' && (one.kind !== kind || one.text !== text);
     const others = this.notices.value.filter(isOther).slice(-kMostOthers);
     this.notices.value = [...alarms, ...others, notice].sort((a, b) => a.number - b.number);
-    if (kind !== 'alarm') this.world.after(lastsMs, () => this.dismiss(notice.number));
+    if (kind !== 'alarm' && lastsMs !== null) this.world.after(lastsMs, () => this.dismiss(notice.number));
     return notice.number;
   }
 
@@ -164,8 +177,13 @@ export class Session {
       return false;
     }
     const answer = await this.link.command(command);
-    this.report(answer, done);
+    this.report(command.type, answer, done);
     return answer.ok;
+  }
+
+  /** An order to drones, meant for those of the flight that is shown here: another flight refuses it. */
+  forThisFlight(command: Command): Command {
+    return { ...command, run: this.run, epoch: this.mission.value?.epoch ?? 0 };
   }
 
   /** The same of an order that brings drones down, which goes out however old the picture is; says where it stands. */
@@ -179,13 +197,17 @@ export class Session {
     this.dismiss(notice);
     if (!answer.ok && ['no_answer', 'offline'].includes(answer.refused.code))
       this.notify('alarm', `${name} is not confirmed. ${sentence(answer.refused.reason)}`);
-    else this.report(answer, done);
+    else this.report(command.type, answer, done);
     return answer.ok;
   }
 
-  private report(answer: Answer, done: string | undefined): void {
+  private report(type: string, answer: Answer, done: string | undefined): void {
     if (!answer.ok) {
       this.notify('warning', answer.refused.reason);
+      return;
+    }
+    if (answer.ack.pending) {
+      this.waitFor(type, done);
       return;
     }
     const refused = answer.ack.refused_drones ?? [];
@@ -198,6 +220,24 @@ export class Session {
           .join('; '),
       );
     else if (done) this.notify('info', done);
+  }
+
+  /** Nothing is said to be done that no tick has taken: the program tells of it when one has. */
+  private waitFor(type: string, done: string | undefined): void {
+    const why = this.snapshot?.isPaused ? 'the clock is paused' : 'the next tick is late';
+    const notice = this.notify('warning', `Waiting: ${why}. Not done yet: ${done ?? type}`, null);
+    this.waiting = [...this.waiting, { type, notice, done }];
+  }
+
+  /** An order of this console that waited was taken by a tick, or refused by it, which is an event of its own. */
+  private settleWaiting(event: SwarmEvent): void {
+    if (event.by === '' || event.by !== this.hello.value?.name) return;
+    const isRefused = event.source === 'swarm' && event.what === 'refused';
+    const found = this.waiting.find((one) => isRefused || (event.source === 'operator' && event.what === one.type));
+    if (!found) return;
+    this.waiting = this.waiting.filter((one) => one !== found);
+    this.dismiss(found.notice);
+    if (!isRefused && found.done) this.notify('info', found.done);
   }
 
   // --- what comes from the program --------------------------------------------------------------------------------
@@ -239,6 +279,7 @@ export class Session {
     const before = this.mission.value;
     const isAnother = !isSameMission(mission, before);
     this.mission.value = mission;
+    this.run = this.hello.value?.run ?? '';
     if (!isAnother) return;
     this.snapshot = this.density = this.ghost = this.coverage = this.ageMap = this.trails = null;
     this.hasSnapshot.value = false;
@@ -258,6 +299,7 @@ export class Session {
       `Another mission is flown now: ${now.mission.name}, after ${before.mission.name}. Nothing is selected any more.${dropped}`,
     );
     this.committedRevision = null;
+    this.waiting = [];
     for (const listener of this.missionListeners) listener();
   }
 
@@ -269,10 +311,21 @@ export class Session {
     this.targets.value = targets;
     if (this.committedRevision !== null && targets.revision >= this.committedRevision) {
       this.committedRevision = null;
-      this.restage(nothingStaged(targets.revision));
+      this.tellTooLate(this.staging.value.undone.filter((step) => this.sent.includes(step)));
+      this.carryOver(targets, unsent(this.staging.value, this.sent, targets.revision));
       return;
     }
-    const { staging, lost } = rebase(targets, this.staging.value);
+    this.carryOver(targets, this.staging.value);
+  }
+
+  private tellTooLate(steps: readonly Step[]): void {
+    if (steps.length > 0)
+      this.notify('warning', `Committed before you took it back: “${steps.map((s) => s.what).join('”, “')}”.`);
+  }
+
+  /** What is staged goes on where it still fits the targets. */
+  private carryOver(targets: TargetsMessage, before: Staging): void {
+    const { staging, lost } = rebase(targets, before);
     if (lost.length > 0)
       this.notify(
         'warning',
@@ -287,7 +340,9 @@ export class Session {
     const isRestarted = events.length > 0 && events[events.length - 1]!.number < this.lastEvent;
     const known = isRestarted ? [] : this.events.value.filter((event) => event.number < first);
     this.events.value = [...known, ...events].slice(-kMostEvents);
-    if (this.lastEvent > 0) this.tell(events.filter((event) => event.number > this.lastEvent));
+    const news = events.filter((event) => event.number > this.lastEvent);
+    for (const event of news) this.settleWaiting(event);
+    if (this.lastEvent > 0) this.tell(news);
     this.lastEvent = events[events.length - 1]?.number ?? this.lastEvent;
   }
 
@@ -379,6 +434,7 @@ export class Session {
   async commit(): Promise<Answer> {
     const { basedOn, steps } = this.staging.value;
     this.isCommitting = true;
+    this.sent = steps;
     const edits = steps.flatMap((step) => step.edits);
     const answer = await this.link.command({ type: 'edit', based_on: basedOn, edits });
     batch(() => {

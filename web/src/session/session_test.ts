@@ -133,6 +133,91 @@ describe('session', () => {
     for (const seen of names) expect(seen).toEqual(['east', 'west']);
   });
 
+  it.each(['the answer', 'the new targets'])(
+    'An edit that is made while a commit is under way stays staged, also when %s comes first',
+    async (first) => {
+      const { session, socket, sent, editor, heavier } = begin();
+      editor.stage('heavier', heavier);
+      const done = editor.commit();
+      editor.stage('west', { op: 'add_point', kind: 'cluster', name: 'west', point_m: [1, 1] });
+      const answer = { type: 'ack', id: sent('edit')[0]!['id'], tick: 1, revision: 2 };
+      for (const message of first === 'the answer' ? [answer, targetsOf(2, 4)] : [targetsOf(2, 4), answer]) {
+        socket.say(message);
+        await settled();
+      }
+      await done;
+      expect(session.staging.value).toMatchObject({ basedOn: 2, steps: [{ what: 'west' }] });
+      expect(session.draft.value.clusters.map((one) => one.name)).toEqual(['east', 'west']);
+      void editor.commit();
+      expect(sent('edit')[1]).toMatchObject({ based_on: 2, edits: [{ op: 'add_point', name: 'west' }] });
+    },
+  );
+
+  it('Who takes back an edit that is being committed is told that it was too late', async () => {
+    const { session, socket, sent, editor, heavier } = begin();
+    editor.stage('heavier', heavier);
+    const done = editor.commit();
+    editor.undo();
+    socket.say(targetsOf(2, 4));
+    socket.say({ type: 'ack', id: sent('edit')[0]!['id'], tick: 1, revision: 2 });
+    await done;
+    expect(session.staging.value).toMatchObject({ steps: [], undone: [] });
+    expect(session.notices.value.map((one) => one.text)).toContain('Committed before you took it back: “heavier”.');
+  });
+
+  it('An order under a paused clock is said to wait until a tick has taken it', async () => {
+    const { world, session, socket, sent } = begin();
+    const said = (): string[] => session.notices.value.map((one) => one.text);
+    const stopped = event(2, 'alarm', '', 'operator', 'Ana', 'land_all');
+    socket.say({ type: 'events', events: [event(1, 'info', 'begins', 'program')] });
+    socket.onmessage?.({ data: snapshotBytes(1, 2, true) });
+    void session.command({ type: 'land_all' }, 'LAND ALL: every drone comes down.');
+    socket.say({ type: 'ack', id: sent('land_all')[0]!['id'], tick: 2, pending: true });
+    await settled();
+    expect(said()).toEqual(['Waiting: the clock is paused. Not done yet: LAND ALL: every drone comes down.']);
+    for (let i = 0; i < 30; i++) {
+      world.pass(1000);
+      socket.onmessage?.({ data: snapshotBytes(1, 2, true) });
+    }
+    expect(said()).toHaveLength(1);
+    socket.say({ type: 'events', events: [stopped] });
+    expect(said()).toEqual(['LAND ALL: every drone comes down.']);
+  });
+
+  it('An order that waited and was refused then is not said to be done', async () => {
+    const { session, socket, sent } = begin();
+    socket.say({ type: 'events', events: [event(1, 'info', 'begins', 'program')] });
+    void session.command(session.forThisFlight({ type: 'land', drones: ['d1'] }), 'Land: d1');
+    socket.say({ type: 'ack', id: sent('land')[0]!['id'], tick: 2, pending: true });
+    await settled();
+    expect(session.notices.value[0]!.text).toBe('Waiting: the next tick is late. Not done yet: Land: d1');
+    socket.say({ type: 'events', events: [event(2, 'warning', 'd1 is on the ground', 'swarm', 'Ana', 'refused')] });
+    expect(session.notices.value.map((one) => one.text)).toEqual(['d1 is on the ground']);
+  });
+
+  it('An order says for which flight it is meant: the one that is shown, not the one that runs since', () => {
+    const { session, socket, sent } = begin();
+    socket.say({ ...kHello, run: 'other' });
+    void session.command(session.forThisFlight({ type: 'hold', drones: ['d1'] }), 'Hold: d1');
+    expect(sent('hold')[0]).toMatchObject({ run: '1f', epoch: 1 });
+    socket.say(kMission);
+    void session.command(session.forThisFlight({ type: 'hold', drones: ['d1'] }), 'Hold: d1');
+    expect(sent('hold')[1]).toMatchObject({ run: 'other', epoch: 1 });
+  });
+
+  it('Undo says what was seen last, and a second one waits for the first', async () => {
+    const { socket, sent, editor } = begin();
+    socket.say({ ...targetsOf(5, 1), can_undo: true });
+    editor.undo();
+    editor.undo();
+    expect(sent('undo')).toMatchObject([{ based_on: 5 }]);
+    socket.say({ ...targetsOf(6, 1), can_undo: true });
+    socket.say({ type: 'ack', id: sent('undo')[0]!['id'], tick: 1, revision: 6 });
+    await settled();
+    editor.undo();
+    expect(sent('undo')[1]).toMatchObject({ based_on: 6 });
+  });
+
   it('A refused commit stays staged; after somebody else’s change it is based on what is there now', async () => {
     const { session, socket, sent, editor, heavier } = begin();
     editor.stage('heavier', heavier);

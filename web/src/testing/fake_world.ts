@@ -9,6 +9,7 @@ export const kHello = {
   role: 'operator',
   roles: ['viewer', 'operator'],
   login: false,
+  run: '1f',
   steady_ms: 0,
 };
 
