@@ -126,11 +126,15 @@ describe('a console whose program is played', () => {
     await expect.poll(() => rows.allTextContents()).toEqual(['d1', 'd4']);
   });
 
-  it('On a tablet the table says when each drone was heard', async () => {
+  it('On a tablet the table says when each drone was heard, and every plot what it shows', async () => {
     await beginFlying(5);
     for (const width of [768, 1024]) {
       await page.setViewportSize({ width, height: 900 });
       await page.getByRole('columnheader', { name: 'link' }).waitFor();
+      const titles = await page.locator('.plot h3 span').all();
+      expect(titles).toHaveLength(4);
+      for (const title of titles)
+        expect(await title.evaluate((text) => text.scrollWidth <= text.clientWidth)).toBe(true);
       await keepPicture(page, `table_${width}`);
     }
   });

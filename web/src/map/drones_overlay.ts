@@ -55,7 +55,8 @@ function drawId(pen: Pen, scene: DronesScene, drone: number, room: LabelRoom): v
   const isActive = activity.severity === 'ok';
   const colour = activity.severity === 'alarm' ? palette.failure : isActive ? palette.text : palette.warning;
   const id = scene.ids[drone]!;
-  if (room.take(labelBox(pen, id, x + 13, y - 9))) label(pen, id, x + 13, y - 9, colour);
+  if (!room.take(labelBox(pen, id, x + 13, y - 9))) return;
+  label(pen, id, x + 13, y - 9, colour);
   if (isActive || !room.take(labelBox(pen, activity.label, x + 13, y + 6))) return;
   label(pen, activity.label, x + 13, y + 6, colour);
 }

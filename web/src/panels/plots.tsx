@@ -7,6 +7,8 @@ import { Icon } from './icons';
 import { Plot, type PlotSeries } from './plot';
 
 const kColours = ['accent', 'trail', 'warning', 'density', 'failure', 'dim'];
+const kOfPairs = 'Distances between drones, and dashed R_s, the least that is allowed.';
+const kOfNearest = 'Distance of the two drones nearest to each other, and dashed R_s, the least that is allowed.';
 const kDashes = [undefined, [7, 3], [2, 3]];
 
 const lines = (names: readonly string[]): PlotSeries[] =>
@@ -31,9 +33,9 @@ export function Plots() {
   return (
     <div class="plots">
       <Plot
-        title="Metric, % of first"
+        title="Metric"
         now={snapshot?.hasMetric ? `${snapshot.metricPercent.toPrecision(3)} %` : '–'}
-        description="How far the swarm's time is from what was asked; it falls while the swarm covers."
+        description="How far the swarm's time is from what was asked, in % of the first value; it falls while the swarm covers."
         range={range}
         series={lines(['metric'])}
         data={ofSwarm(0)}
@@ -49,16 +51,16 @@ export function Plots() {
         atLeast={1}
       />
       <Plot
-        title={isFew ? 'Distances, R_s' : 'Least distance'}
+        title={isFew ? 'Distances' : 'Distance'}
         now={metres(snapshot?.leastPairM)}
-        description="Distances between drones, and dashed R_s, the least that is allowed."
+        description={isFew ? kOfPairs : kOfNearest}
         range={range}
         series={isFew ? lines(Series.pairNames(ids)) : lines(['least'])}
         data={isFew ? drawn(() => series.ofPairs(span)) : ofSwarm(2)}
         limit={separation}
       />
       <Plot
-        title={isFew ? 'Inputs |u|' : 'Fastest input'}
+        title={isFew ? 'Inputs |u|' : 'Fastest |u|'}
         now={metresPerSecond(series.fastest)}
         description="Speed that was asked of the drones."
         range={range}

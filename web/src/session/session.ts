@@ -206,8 +206,8 @@ export class Session {
       this.notify('warning', answer.refused.reason);
       return;
     }
-    if (answer.ack.pending) {
-      this.waitFor(type, done);
+    if (answer.ack.pending && type !== 'undo' && type !== 'redo') {
+      this.waitFor(type, done); // targets are shown at once, whenever a tick takes them
       return;
     }
     const refused = answer.ack.refused_drones ?? [];
@@ -227,6 +227,12 @@ export class Session {
     const why = this.snapshot?.isPaused ? 'the clock is paused' : 'the next tick is late';
     const notice = this.notify('warning', `Waiting: ${why}. Not done yet: ${done ?? type}`, null);
     this.waiting = [...this.waiting, { type, notice, done }];
+  }
+
+  /** Nobody will tell any more what became of them. */
+  private dropWaiting(): void {
+    for (const one of this.waiting) this.dismiss(one.notice);
+    this.waiting = [];
   }
 
   /** An order of this console that waited was taken by a tick, or refused by it, which is an event of its own. */
@@ -250,6 +256,7 @@ export class Session {
   private take(message: ServerMessage): void {
     switch (message.type) {
       case 'hello':
+        if (message.run !== this.hello.value?.run) this.dropWaiting();
         this.hello.value = message;
         this.isOld.value = this.snapshot !== null;
         this.shownEditing = '[]';
@@ -299,7 +306,7 @@ export class Session {
       `Another mission is flown now: ${now.mission.name}, after ${before.mission.name}. Nothing is selected any more.${dropped}`,
     );
     this.committedRevision = null;
-    this.waiting = [];
+    this.dropWaiting();
     for (const listener of this.missionListeners) listener();
   }
 

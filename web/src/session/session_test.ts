@@ -195,6 +195,16 @@ describe('session', () => {
     expect(session.notices.value.map((one) => one.text)).toEqual(['d1 is on the ground']);
   });
 
+  it('What waited for a program that was restarted waits no more, and is not said to be done', async () => {
+    const { session, socket, sent } = begin();
+    void session.order({ type: 'land', drones: ['d1'] }, 'Land: d1');
+    socket.say({ type: 'ack', id: sent('land')[0]!['id'], tick: 2, pending: true });
+    await settled();
+    expect(session.notices.value).toHaveLength(1);
+    socket.say({ ...kHello, run: 'other' });
+    expect(session.notices.value).toEqual([]);
+  });
+
   it('An order says for which flight it is meant: the one that is shown, not the one that runs since', () => {
     const { session, socket, sent } = begin();
     socket.say({ ...kHello, run: 'other' });
