@@ -141,11 +141,13 @@ describe('a console whose program is played', () => {
 
   it('A restarted program waits for somebody to let the drones go on', async () => {
     await beginFlying(3);
+    program.drones[0]!.activity = program.drones[2]!.activity = 12;
+    program.drones[1]!.activity = 7; // marked failed before the restart, and still
     program.sayStatus({ waits_for_resume: true });
-    await page.getByRole('button', { name: 'Resume all' }).click();
+    await page.getByRole('button', { name: 'Resume those that hold' }).click();
     await expect
       .poll(() => program.received.find((message) => message['type'] === 'resume'))
-      .toMatchObject({ drones: 'all' });
+      .toMatchObject({ drones: ['d1', 'd3'], run: '1f', epoch: 1 });
     await keepPicture(page, 'restarted');
   });
 

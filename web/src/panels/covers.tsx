@@ -1,5 +1,6 @@
 import { useSignal } from '@preact/signals';
 import { useEffect } from 'preact/hooks';
+import { activityOf } from '../model/drones';
 import type { Point } from '../model/geometry';
 import { isEmpty, type Edit } from '../model/targets';
 import { age, sentence } from '../model/units';
@@ -127,8 +128,18 @@ const fateAfterTheEnd = (fleet: string | undefined): string =>
     ? 'Its simulated drones ended with it. Start it again to go on.'
     : 'Nothing flies the drones any more: each hovers and then lands by its own failsafe. Start the program again to go on.';
 
+const fateAfterRestart = (fleet: string | undefined): string =>
+  fleet === 'LIVE'
+    ? 'Drones in the air count as overridden and are not steered until they were seen on the ground; an emergency stop reaches them.'
+    : 'Drones in the air hold until you let them go on; who was landing lands, who was marked failed or stopped stays so.';
+
 function Restarted() {
   const { session, orders } = useApp();
+  void session.beat.value;
+  // Not all: to resume one that is marked failed, or was sent down, is a decision of its own.
+  const held = session.droneIds.value.filter(
+    (_, drone) => session.snapshot && activityOf(session.snapshot, drone).word === 'held',
+  );
   return (
     <div class="banner is-calm" role="alert">
       <span class="warning">
@@ -136,15 +147,16 @@ function Restarted() {
       </span>
       <p>
         <strong>The program was restarted.</strong>
-        It has its mission, targets and coverage back; the drones hold until you let them go on.
+        It has its mission, targets and coverage back. {fateAfterRestart(session.mission.value?.fleet)}
       </p>
       <button
         type="button"
         class="primary"
-        disabled={!session.mayOperate.value}
-        onClick={() => orders.to('resume', 'all')}
+        disabled={!session.mayOperate.value || held.length === 0}
+        title={held.length === 0 ? 'No drone holds' : undefined}
+        onClick={() => orders.to('resume', held)}
       >
-        Resume all
+        Resume those that hold
       </button>
     </div>
   );
