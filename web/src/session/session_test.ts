@@ -197,7 +197,7 @@ describe('session', () => {
 
   it('What waited for a program that was restarted waits no more, and is not said to be done', async () => {
     const { session, socket, sent } = begin();
-    void session.order({ type: 'land', drones: ['d1'] }, 'Land: d1');
+    void session.command(session.forThisFlight({ type: 'land', drones: ['d1'] }), 'Land: d1');
     socket.say({ type: 'ack', id: sent('land')[0]!['id'], tick: 2, pending: true });
     await settled();
     expect(session.notices.value).toHaveLength(1);
@@ -206,13 +206,14 @@ describe('session', () => {
   });
 
   it('An order says for which flight it is meant: the one that is shown, not the one that runs since', () => {
-    const { session, socket, sent } = begin();
+    const { session, socket, sent, editor } = begin();
+    const hold = { type: 'hold', drones: ['d1'] };
+    new FleetOrders(session, editor).to('hold', ['d1']);
+    expect(sent('hold')).toMatchObject([{ drones: ['d1'], run: '1f', epoch: 1 }]);
     socket.say({ ...kHello, run: 'other' });
-    void session.command(session.forThisFlight({ type: 'hold', drones: ['d1'] }), 'Hold: d1');
-    expect(sent('hold')[0]).toMatchObject({ run: '1f', epoch: 1 });
+    expect(session.forThisFlight(hold)).toMatchObject({ run: '1f', epoch: 1 });
     socket.say(kMission);
-    void session.command(session.forThisFlight({ type: 'hold', drones: ['d1'] }), 'Hold: d1');
-    expect(sent('hold')[1]).toMatchObject({ run: 'other', epoch: 1 });
+    expect(session.forThisFlight(hold)).toMatchObject({ run: 'other', epoch: 1 });
   });
 
   it('Undo says what was seen last, and a second one waits for the first', async () => {
