@@ -49,10 +49,12 @@ Json replay_json(const ReplayState& replay) {
 
 }  // namespace
 
-Json hello_json(const Operator& client, std::string_view program, std::string_view run, bool wants_login, double steady_ms) {
+Json hello_json(const Operator& client, std::string_view program, std::string_view run, bool wants_login,
+                double steady_ms) {
   return {{"type", "hello"},         {"protocol", 1},        {"program", program},
           {"client", client.client}, {"name", client.name},  {"role", name_of(client.role)},
-          {"roles", kRoleWords},     {"login", wants_login}, {"run", run}, {"steady_ms", steady_ms}};
+          {"roles", kRoleWords},     {"login", wants_login}, {"run", run},
+          {"steady_ms", steady_ms}};
 }
 
 Json mission_message(const runtime::Mission& mission, std::uint32_t epoch, bool has_real_drones) {

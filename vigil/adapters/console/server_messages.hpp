@@ -87,7 +87,8 @@ struct Answer {
 
 using Json = nlohmann::ordered_json;
 
-[[nodiscard]] Json hello_json(const Operator& client, std::string_view program, std::string_view run, bool wants_login, double steady_ms);
+[[nodiscard]] Json hello_json(const Operator& client, std::string_view program, std::string_view run, bool wants_login,
+                              double steady_ms);
 [[nodiscard]] Json mission_message(const runtime::Mission& mission, std::uint32_t epoch, bool has_real_drones);
 [[nodiscard]] Json recorded_mission_message(const runtime::Mission& mission, std::uint32_t epoch,
                                             const RecordingFacts& recording);
