@@ -32,7 +32,14 @@ std::size_t size_of(const MissionTargets& targets) {
 
 std::string in_words(std::span<const TargetEdit> edits) {
   if (edits.size() == 1) return in_words(edits.front());
-  return fmt::format("{} changes: {}, ...", edits.size(), in_words(edits.front()));
+  constexpr std::size_t kMostTold = 20;
+  std::string words = fmt::format("{} changes", edits.size());
+  const char* before = ": ";
+  for (const TargetEdit& edit : edits.first(std::min(edits.size(), kMostTold))) {
+    words += before + in_words(edit);
+    before = "; ";
+  }
+  return edits.size() > kMostTold ? words + "; ..." : words;
 }
 
 /// "outline_m[2]" is corner 3, "revisit_s" the deadline.

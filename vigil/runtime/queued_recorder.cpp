@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <iterator>
 #include <stdexcept>
 #include <utility>
 
@@ -13,6 +14,8 @@ namespace {
 using namespace std::chrono_literals;
 
 constexpr std::size_t kMostNotes = 10'000;
+/// Lists of targets that no tick was given yet; more wait only where edits come quicker than ticks.
+constexpr std::size_t kMostExpected = 64;
 /// The recorder looks for ticks instead of being woken: waking a thread may cost the control thread a system call.
 constexpr auto kLookEvery = 10ms;
 
@@ -32,7 +35,7 @@ QueuedRecorder::QueuedRecorder(std::unique_ptr<Recorder> inner, const Mission& m
   const std::size_t slots = slot_count(drones);
   slots_.reserve(slots);
   for (std::size_t n = 0; n < slots; ++n) {
-    slots_.push_back({swarm::Snapshot(drones), {}, {}, {}, {}});
+    slots_.push_back({swarm::Snapshot(drones), {}, {}, {}, {}, {}});
     slots_.back().observations.reserve(drones);
     slots_.back().commands.reserve(drones + 64);
     slots_.back().truth.reserve(drones);
@@ -44,6 +47,8 @@ QueuedRecorder::QueuedRecorder(std::unique_ptr<Recorder> inner, const Mission& m
 QueuedRecorder::~QueuedRecorder() { thread_ = {}; }
 
 void QueuedRecorder::record(const TickRecord& tick) noexcept {
+  for (const swarm::Command& command : tick.commands)
+    if (command.kind == swarm::CommandKind::kSetTarget) in_force_ = command.target;
   const std::uint64_t number = written_.load(std::memory_order_relaxed);
   if (number - taken_.load(std::memory_order_acquire) >= slots_.size()) {
     lost_.fetch_add(1, std::memory_order_relaxed);
@@ -55,6 +60,7 @@ void QueuedRecorder::record(const TickRecord& tick) noexcept {
   slot.commands.assign(tick.commands.begin(), tick.commands.end());
   slot.truth.assign(tick.truth.begin(), tick.truth.end());
   slot.clearances = tick.clearances;
+  slot.target = in_force_;
   written_.store(number + 1, std::memory_order_release);
 }
 
@@ -70,18 +76,40 @@ void QueuedRecorder::targets(double time_s, const MissionTargets& targets) noexc
   if (!notes_.push(std::move(note))) lost_.fetch_add(1, std::memory_order_relaxed);
 }
 
+void QueuedRecorder::expect(std::shared_ptr<const swarm::CoverageTarget> given,
+                            const MissionTargets& targets) noexcept {
+  std::vector<Note> note;
+  note.emplace_back(ExpectedTargets{std::move(given), targets});
+  if (!notes_.push(std::move(note))) lost_.fetch_add(1, std::memory_order_relaxed);
+}
+
 void QueuedRecorder::write_notes() {
   for (const Note& note : notes_.take()) {
     if (const auto* event = std::get_if<LoggedEvent>(&note)) inner_->log(*event);
     if (const auto* change = std::get_if<NewTargets>(&note)) inner_->targets(change->time_s, change->targets);
+    if (const auto* expected = std::get_if<ExpectedTargets>(&note)) expected_.push_back(*expected);
+    if (expected_.size() > kMostExpected) expected_.pop_front();
   }
+}
+
+/// The importance map takes its time to draw, and a tick is only given it then: the list holds from that tick on.
+void QueuedRecorder::write_targets(const Slot& slot) {
+  if (slot.target == noted_) return;
+  write_notes();  // what was expected before the tick was is there now
+  noted_ = slot.target;
+  const auto expected = std::ranges::find(expected_, noted_, &ExpectedTargets::given);
+  if (expected == expected_.end()) return;
+  inner_->targets(slot.snapshot.time_s, expected->targets);
+  expected_.erase(expected_.begin(), std::next(expected));
 }
 
 bool QueuedRecorder::write_tick() {
   const std::uint64_t number = taken_.load(std::memory_order_relaxed);
   if (number == written_.load(std::memory_order_acquire)) return false;
   Slot& slot = slots_[number % slots_.size()];
+  write_targets(slot);
   inner_->record({slot.snapshot, slot.observations, slot.commands, slot.truth, slot.clearances});
+  slot.target.reset();
   slot.commands.clear();  // here, so that targets that nobody needs any more are not freed by the control thread
   taken_.store(number + 1, std::memory_order_release);
   if (inner_->trouble().empty()) kept_.fetch_add(1, std::memory_order_relaxed);

@@ -3,6 +3,7 @@
 #include <atomic>
 #include <chrono>
 #include <cstdint>
+#include <deque>
 #include <memory>
 #include <mutex>
 #include <string>
@@ -36,6 +37,9 @@ class QueuedRecorder final : public Recorder {
   void record(const TickRecord& tick) noexcept override;
   void log(const LoggedEvent& event) noexcept override;
   void targets(double time_s, const MissionTargets& targets) noexcept override;
+  /// What `given` stands for: written as the targets that hold from the first kept tick on that was given it. To be
+  /// said before any tick can be. Any thread.
+  void expect(std::shared_ptr<const swarm::CoverageTarget> given, const MissionTargets& targets) noexcept;
   /// Writes what waits and ends the recording; whatever inner->finish() throws, or an exception that says how many
   /// ticks were lost.
   void finish() override;
@@ -54,23 +58,32 @@ class QueuedRecorder final : public Recorder {
     std::vector<swarm::Command> commands;
     std::vector<TruthSample> truth;
     Clearances clearances;
+    std::shared_ptr<const swarm::CoverageTarget> target;  ///< the last that was given in this tick or before
   };
   struct NewTargets {
     double time_s = 0.0;
     MissionTargets targets;
   };
-  using Note = std::variant<LoggedEvent, NewTargets>;
+  struct ExpectedTargets {
+    std::shared_ptr<const swarm::CoverageTarget> given;
+    MissionTargets targets;
+  };
+  using Note = std::variant<LoggedEvent, NewTargets, ExpectedTargets>;
 
   void write_notes();
+  void write_targets(const Slot& slot);
   bool write_tick();
   void flush_inner();
   void run(const std::stop_token& stop);
 
   std::unique_ptr<Recorder> inner_;
   std::vector<Slot> slots_;
-  std::atomic<std::uint64_t> written_{0};  ///< slots filled, by the control thread
-  std::atomic<std::uint64_t> taken_{0};    ///< slots emptied, by this recorder's thread
+  std::atomic<std::uint64_t> written_{0};                  ///< slots filled, by the control thread
+  std::atomic<std::uint64_t> taken_{0};                    ///< slots emptied, by this recorder's thread
+  std::shared_ptr<const swarm::CoverageTarget> in_force_;  ///< the control thread's
   Inbox<Note> notes_;
+  std::deque<ExpectedTargets> expected_;                ///< this recorder's thread's, oldest first
+  std::shared_ptr<const swarm::CoverageTarget> noted_;  ///< likewise: whose targets were written last
   std::atomic<std::uint64_t> kept_{0};
   std::atomic<std::uint64_t> lost_{0};
   mutable std::mutex trouble_mutex_;

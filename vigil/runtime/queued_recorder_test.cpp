@@ -17,6 +17,7 @@ struct Kept {
   bool is_open = true;
   std::vector<std::uint64_t> ticks;
   std::vector<std::string> events;
+  std::vector<double> targets_s;  ///< from when on each list holds
   int finished = 0;
 
   void open() {
@@ -39,7 +40,10 @@ class GatedRecorder final : public Recorder {
     const std::lock_guard lock(kept_.mutex);
     kept_.events.push_back(event.what);
   }
-  void targets(double, const MissionTargets&) noexcept override { log({0.0, "", "targets", "", ""}); }
+  void targets(double time_s, const MissionTargets&) noexcept override {
+    log({0.0, "", "targets", "", ""});
+    kept_.targets_s.push_back(time_s);
+  }
   void finish() override { ++kept_.finished; }
 
  private:
@@ -63,6 +67,33 @@ TEST(QueuedRecorderTest, Everything_arrives_in_order) {
   EXPECT_EQ(kept.events, (std::vector<std::string>{"land", "targets"}));
   EXPECT_EQ(kept.finished, 1);
   EXPECT_EQ(recorder.lost_ticks(), 0U);
+}
+
+/// A tick that is given a new importance map.
+void record_retargeted(QueuedRecorder& recorder, std::uint64_t tick,
+                       const std::shared_ptr<const swarm::CoverageTarget>& target) {
+  swarm::Snapshot snapshot(3);
+  snapshot.tick = tick;
+  snapshot.time_s = 0.02 * static_cast<double>(tick);
+  const swarm::Command command{.kind = swarm::CommandKind::kSetTarget, .drone = {}, .target = target};
+  recorder.record({snapshot, {}, std::span(&command, 1), {}, {}});
+}
+
+TEST(QueuedRecorderTest, Targets_hold_from_the_tick_on_that_was_given_their_map) {
+  Kept kept;
+  QueuedRecorder recorder(std::make_unique<GatedRecorder>(kept), small_mission(), {});
+  const auto first = std::make_shared<const swarm::CoverageTarget>();
+  const auto second = std::make_shared<const swarm::CoverageTarget>();
+  const auto never_given = std::make_shared<const swarm::CoverageTarget>();
+  recorder.expect(first, {});
+  record_retargeted(recorder, 0, first);
+  recorder.expect(never_given, {});
+  recorder.expect(second, {});
+  record_ticks(recorder, 1, 63);
+  record_retargeted(recorder, 63, second);
+  record_ticks(recorder, 64, 70);
+  recorder.finish();
+  EXPECT_EQ(kept.targets_s, (std::vector<double>{0.0, 63 * 0.02}));
 }
 
 /// Takes so many ticks, and then no more.

@@ -93,9 +93,13 @@ void play(FlightRecording& recording, const Mission& mission, Recorder& recorder
   for (const RecordedTargets& targets : recording.targets())
     recorder.targets(targets.time_s, with(targets_of(mission), targets));
   for (const LoggedEvent& event : recording.events()) recorder.log(event);
+  double last_s = 0.0;
   for_each_tick(recording, [&](const RecordedTick& tick) {
+    last_s = tick.snapshot.time_s;
     recorder.record({tick.snapshot, tick.observations, tick.commands, tick.truth, tick.clearances});
   });
+  if (!recording.incomplete_reason().empty())
+    recorder.log({last_s, "recorder", "not_whole", "", recording.incomplete_reason()});
   recorder.finish();
 }
 

@@ -87,10 +87,9 @@ void Desk::retarget(std::uint64_t ticket) {
   command.revision = desk_->revision();
   command.ticket = ticket;
   unsent_ = command;
+  if (flight_->recorder() != nullptr) flight_->recorder()->expect(recent_targets_.back(), runtime::targets_of(mission));
   submit_target();
   ground_->retarget(mission, recent_targets_.back()->phi_k, frame_->snapshot.time_s);
-  if (flight_->recorder() != nullptr)
-    flight_->recorder()->targets(frame_->snapshot.time_s, runtime::targets_of(mission));
 }
 
 void Desk::submit_target() {

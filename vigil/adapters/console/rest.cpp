@@ -4,6 +4,7 @@
 
 #include "vigil/adapters/console/areas_geojson.hpp"
 #include "vigil/adapters/console/mission_json.hpp"
+#include "vigil/adapters/console/query.hpp"
 #include "vigil/runtime/mission_writer.hpp"
 
 namespace vigil::console {
@@ -147,10 +148,10 @@ void Rest::answer_command(const std::variant<ClientMessage, MessageRefusal>& par
 }
 
 void Rest::explain(const std::string& query, Role role, const Reply& reply) {
-  constexpr std::string_view kName = "drone=";
   if (!hub_.has_ticked()) return reply(nothing_flies());
-  if (!query.starts_with(kName)) return reply(refusal(400, "malformed", "say of which drone: /api/why?drone=ID"));
-  answer_command(ClientMessage{0, "why", Why{query.substr(kName.size())}}, role, reply);
+  const std::optional<std::string> drone = query_value(query, "drone");
+  if (!drone) return reply(refusal(400, "malformed", "say of which drone: /api/why?drone=ID"));
+  answer_command(ClientMessage{0, "why", Why{*drone}}, role, reply);
 }
 
 void Rest::import_areas(const HttpRequest& request, Role role, const Reply& reply) {

@@ -36,6 +36,14 @@ Json polygon(const GeographicFrame& frame, std::span<const Vec2> outline_m, Json
   return feature("Polygon", Json::array({positions(frame, closed_ring(outline_m))}), std::move(properties));
 }
 
+/// What is asked of a cluster or an area.
+template <class Entry>
+Json wanted(const char* kind, const Entry& entry) {
+  Json properties{{"kind", kind}, {"name", entry.name}, {"weight", entry.weight}};
+  if (entry.revisit_s) properties["revisit_s"] = *entry.revisit_s;
+  return properties;
+}
+
 Json track(const GeographicFrame& frame, const Track& track, std::int64_t began_ns) {
   constexpr double kMilli = 1e3;
   Json lines = Json::array();
@@ -66,11 +74,12 @@ std::string geojson(const MappedFlight& flight) {
   Json features = Json::array();
   features.push_back(polygon(frame, field_outline(mission), {{"kind", "field"}, {"name", mission.name}}));
   for (const runtime::ClusterEntry& cluster : flight.targets.targets.clusters)
-    features.push_back(feature("MultiPoint", positions(frame, cluster.points_m),
-                               {{"kind", "cluster"}, {"name", cluster.name}, {"weight", cluster.weight}}));
-  for (const runtime::AreaEntry& area : flight.targets.targets.areas)
-    features.push_back(
-        polygon(frame, area.outline_m, {{"kind", "area"}, {"name", area.name}, {"weight", area.weight}}));
+    features.push_back(feature("MultiPoint", positions(frame, cluster.points_m), wanted("cluster", cluster)));
+  for (const runtime::AreaEntry& area : flight.targets.targets.areas) {
+    Json properties = wanted("area", area);
+    properties["soft_edge_m"] = area.soft_edge_m;
+    features.push_back(polygon(frame, area.outline_m, std::move(properties)));
+  }
   for (const runtime::NoFlyEntry& no_fly : flight.targets.no_fly)
     features.push_back(polygon(frame, no_fly.outline_m, {{"kind", "no_fly"}, {"name", no_fly.name}}));
   for (const Track& one : flight.tracks)

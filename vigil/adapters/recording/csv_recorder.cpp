@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cassert>
 #include <exception>
+#include <optional>
 #include <utility>
 
 #include "vigil/adapters/recording/least_clearances.hpp"
@@ -180,28 +181,43 @@ void CsvRecorder::targets(double time_s, const runtime::MissionTargets& targets)
 }
 
 void CsvRecorder::write_targets(double time_s, const runtime::MissionTargets& targets) {
-  const auto write_points = [&](std::string_view kind, const std::string& name, std::optional<double> weight,
-                                const auto& points) {
-    for (const Vec2& point : points) {
-      targets_.cell(time_s);
-      targets_.cell(kind);
-      targets_.cell(std::string_view(name));
-      weight ? targets_.cell(*weight) : targets_.empty_cell();
-      cells(targets_, point);
-      targets_.end_row();
-    }
+  const auto cell_or_none = [this](std::optional<double> value) {
+    value ? targets_.cell(*value) : targets_.empty_cell();
+  };
+  const auto begin_row = [&](std::string_view kind, const std::string& name, std::optional<double> weight,
+                             std::optional<double> revisit_s, std::optional<double> soft_edge_m) {
+    targets_.cell(time_s);
+    targets_.cell(kind);
+    targets_.cell(std::string_view(name));
+    for (const std::optional<double> value : {weight, revisit_s, soft_edge_m}) cell_or_none(value);
+  };
+  const auto end_row = [&](const Vec2& point) {
+    cells(targets_, point);
+    targets_.end_row();
   };
   const auto& [wanted, no_fly] = targets;
-  for (const auto& cluster : wanted.clusters) write_points("cluster", cluster.name, cluster.weight, cluster.points_m);
-  for (const auto& area : wanted.areas) write_points("area", area.name, area.weight, area.outline_m);
-  // A list without any target is a list too.
-  if (wanted.clusters.empty() && wanted.areas.empty()) {
-    targets_.cell(time_s);
-    targets_.cell(std::string_view("none"));
-    for (int i = 0; i < 4; ++i) targets_.empty_cell();
-    targets_.end_row();
+  for (const runtime::ClusterEntry& cluster : wanted.clusters) {
+    for (const Vec2& point : cluster.points_m) {
+      begin_row("cluster", cluster.name, cluster.weight, cluster.revisit_s, {});
+      end_row(point);
+    }
   }
-  for (const auto& polygon : no_fly) write_points("no_fly", polygon.name, {}, polygon.outline_m);
+  for (const runtime::AreaEntry& area : wanted.areas) {
+    for (const Vec2& corner : area.outline_m) {
+      begin_row("area", area.name, area.weight, area.revisit_s, area.soft_edge_m);
+      end_row(corner);
+    }
+  }
+  for (const runtime::NoFlyEntry& polygon : no_fly) {
+    for (const Vec2& corner : polygon.outline_m) {
+      begin_row("no_fly", polygon.name, {}, {}, {});
+      end_row(corner);
+    }
+  }
+  // The floor ends every list, so that one without any target is a list too.
+  begin_row("floor", "", wanted.uniform_floor, {}, {});
+  for (int i = 0; i < 2; ++i) targets_.empty_cell();
+  targets_.end_row();
   targets_.flush();
 }
 
