@@ -39,7 +39,7 @@ async function look(shown: Program, badge: string): Promise<void> {
   await page.getByTestId('badge').getByText(badge).waitFor();
 }
 
-const kPlots = ['Metric, % of first', 'Worst age of an area', 'Distances, R_s dashed', 'Control inputs |u|'] as const;
+const kPlots = ['Metric', 'Worst age', 'Distances', 'Inputs |u|'] as const;
 const plot = (title: string) => page.getByRole('img', { name: title });
 
 /** From when to when each plot says that it shows the flight, in seconds. */
