@@ -137,7 +137,7 @@ CLI::App* add_margins(CLI::App& program, MarginsOptions& options) {
 
 CLI::App* add_report(CLI::App& program, ReportArguments& arguments) {
   CLI::App* command = program.add_subcommand("report", "Draw the figures of a recording (SVG and PNG) and report.html");
-  command->add_option("DIR", arguments.directory, "The directory that simulate wrote")->required();
+  command->add_option("DIR", arguments.directory, "The directory that simulate or serve --record wrote")->required();
   command->footer(exit_codes("", false));
   return command;
 }

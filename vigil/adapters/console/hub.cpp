@@ -330,10 +330,11 @@ bool Hub::is_of_this_flight(const SeenFlight& seen) const {
   return seen.run.value_or(setup_.run) == setup_.run && seen.epoch.value_or(flight_->epoch()) == flight_->epoch();
 }
 
-/// Motors stop whichever flight somebody was looking at; all else could reach a drone that only has the name of
+/// All motors stop whichever flight somebody was looking at; all else could reach a drone that only has the name of
 /// another.
 void Hub::wish(const DroneWish& wish, std::uint64_t ticket) {
-  if (wish.kind != swarm::CommandKind::kEmergencyStop && !is_of_this_flight(wish.seen))
+  const bool stops_all = wish.kind == swarm::CommandKind::kEmergencyStop && wish.all;
+  if (!stops_all && !is_of_this_flight(wish.seen))
     return refuse(ticket, "stale", "another flight has begun since; look at its drones, then order again");
   const auto drones = drones_of(wish, ticket);
   if (!drones) return;

@@ -32,7 +32,7 @@ TEST(Restart, After_a_restart_it_waits_for_somebody_to_resume) {
   EXPECT_EQ(console.hub.state().at("active"), 3);
 }
 
-TEST(Restart, An_order_for_another_flight_is_refused_but_landing_all_and_an_emergency_stop_are_not) {
+TEST(Restart, An_order_for_another_flight_is_refused_but_landing_or_stopping_all_is_not) {
   ConsoleForTests console;
   console.fly();
   const Visitor ana = console.join();
@@ -54,8 +54,9 @@ TEST(Restart, An_order_for_another_flight_is_refused_but_landing_all_and_an_emer
   EXPECT_EQ(console.newest().snapshot.drones[0].activity, swarm::Activity::kActive);
   EXPECT_EQ(answer(of(hold, "this run", 1)), "ack");
   EXPECT_EQ(answer(hold), "ack");  // says of no flight that it was seen
-  EXPECT_EQ(answer(of({{"type", "emergency_stop"}, {"drones", {"b"}}}, "another run", 7)), "ack");
+  EXPECT_EQ(answer(of({{"type", "emergency_stop"}, {"drones", {"b"}}}, "another run", 7)), "stale");
   EXPECT_EQ(answer({{"type", "land_all"}}), "ack");
+  EXPECT_EQ(answer(of({{"type", "emergency_stop"}, {"drones", "all"}}, "another run", 7)), "ack");
 }
 
 class KeptFlightTest : public ::testing::Test {
