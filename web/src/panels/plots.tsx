@@ -60,7 +60,7 @@ export function Plots() {
         limit={separation}
       />
       <Plot
-        title={isFew ? 'Inputs |u|' : 'Fastest |u|'}
+        title={isFew ? 'Inputs |u|' : 'Fastest'}
         now={metresPerSecond(series.fastest)}
         description="Speed that was asked of the drones."
         range={range}

@@ -77,7 +77,12 @@ export class Session {
   );
   /** What happened in a recording cannot be changed; only its clock obeys. */
   readonly isRecording = computed(() => this.mission.value?.fleet === 'REPLAY');
-  readonly mayTurnClock = computed(() => this.isLive.value && (this.hello.value?.role ?? 'viewer') !== 'viewer');
+  /** A recording's clock obeys also whoever sees it late: no drone is at stake. */
+  readonly mayTurnClock = computed(
+    () =>
+      (this.isRecording.value ? this.isConnected.value : this.isLive.value) &&
+      (this.hello.value?.role ?? 'viewer') !== 'viewer',
+  );
   readonly mayOperate = computed(() => this.mayTurnClock.value && !this.isRecording.value);
   /** Drones are brought down also by who sees an old picture, or none. */
   readonly mayLand = computed(
