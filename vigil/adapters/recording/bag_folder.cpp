@@ -65,12 +65,16 @@ BagFolder look_into(const fs::path& folder) {
   std::error_code error;
   for (const fs::directory_entry& entry : fs::directory_iterator(folder, error))
     if (const auto number = number_in(entry.path().filename().string())) found.emplace(*number, entry.path());
+  const std::size_t named = count_in_metadata(folder / "metadata.yaml");
+  if (found.empty() && named > 0)
+    throw RecordingError(fmt::format("{}: {} is missing, and all files after it; bring them back from a copy",
+                                     folder.string(), name_of(0)));
   if (found.empty())
     throw RecordingError(fmt::format(
         "{}: no recording here; name a directory that `vigil simulate --out` or `vigil serve --record` wrote",
         folder.string()));
   BagFolder bag;
-  const std::size_t count = std::max(found.rbegin()->first + 1, count_in_metadata(folder / "metadata.yaml"));
+  const std::size_t count = std::max(found.rbegin()->first + 1, named);
   for (std::size_t number = 0; number < count; ++number)
     if (!found.contains(number)) bag.missing.push_back(name_of(number));
   for (auto& [number, path] : found) bag.files.push_back(std::move(path));

@@ -327,6 +327,11 @@ TEST(BagRecording, Says_which_of_its_files_are_missing) {
   const std::string last = bag.files.back().filename().string();
   EXPECT_TRUE(bag.missing.empty());
   EXPECT_EQ(incomplete_without(last.c_str()), last + " is missing");
+  const TemporaryFolder empty;
+  std::filesystem::create_directory(empty.path() / "recording");
+  std::filesystem::copy_file(folder.path() / "recording/metadata.yaml", empty.path() / "recording/metadata.yaml");
+  EXPECT_NE(message_of([&] { const BagRecording none(empty.path()); }).find("recording_0.db3 is missing"),
+            std::string::npos);
   overwrite(folder.path() / "recording/metadata.yaml", "{ no: yaml");
   EXPECT_EQ(BagRecording(folder.path()).incomplete_reason(), "");
 }
