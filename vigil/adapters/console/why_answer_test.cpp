@@ -30,7 +30,7 @@ TEST(WhyTest, What_is_answered_is_what_the_flights_state_gives) {
   ConsoleForTests other;  // the same flight once more, up to the tick that was told of
   other.fly();
   while (other.newest().snapshot.tick < told.at("tick")) other.pass(5ms);
-  const swarm::DroneSnapshot& decided = other.newest().snapshot.drones[1];
+  const swarm::DroneSnapshot decided = other.newest().snapshot.drones[1];
   const field::WorldFrame world = runtime::world_frame(runtime::small_mission());
   const Vec2 wanted = world.vector_to_world(decided.u_nom);
   const Vec2 allowed = world.vector_to_world(decided.order.velocity);
