@@ -6,7 +6,9 @@
 #include <cstdio>
 #include <numeric>
 #include <optional>
+#include <span>
 #include <thread>
+#include <vector>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -56,7 +58,7 @@ class Flight {
 
   void step() {
     for (std::size_t i = 0; i < orders_.size(); ++i) obey(i, wire_.take(i));
-    audit_.judge(fleet_->truth(), snapshot_);
+    audit_.judge(truth(), snapshot_);
     fleet_->order(runtime::MissionTime(0), orders_);
     fleet_->advance(1.0 / kRateHz);
     show();
@@ -97,6 +99,13 @@ class Flight {
     longest_silence_s_ = std::max(longest_silence_s_, told.longest_silence_s);
   }
 
+  /// Where the drones are. Velocities take them up and down as well, of which the simulated vehicles know nothing.
+  std::span<const runtime::TruthSample> truth() {
+    truth_.assign(fleet_->truth().begin(), fleet_->truth().end());
+    for (std::size_t i = 0; i < truth_.size(); ++i) truth_[i].height_m = commanders_[i].height_m();
+    return truth_;
+  }
+
   [[nodiscard]] int sum(int (ros_bridge::StandInCommander::*count)() const) const {
     return std::accumulate(commanders_.begin(), commanders_.end(), 0,
                            [&](int so_far, const auto& one) { return so_far + (one.*count)(); });
@@ -118,6 +127,7 @@ class Flight {
   swarm::Snapshot snapshot_;
   std::vector<ros_bridge::StandInCommander> commanders_;
   std::vector<swarm::DroneOrder> orders_;
+  std::vector<runtime::TruthSample> truth_;
   std::uint64_t setpoints_ = 0;
   double longest_pause_s_ = 0.0;
   double longest_silence_s_ = 0.0;

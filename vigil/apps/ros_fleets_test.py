@@ -79,7 +79,7 @@ class TenDrones(unittest.TestCase):
         stop("laboratory")
         judgement = json.loads((HOME / "ten.json").read_text())
         print(judgement, file=sys.stderr)
-        for count in ("in_the_air", "falls", "starts_by_setpoints"):
+        for count in ("in_the_air", "falls", "starts_by_setpoints", "separation_violations"):
             self.assertEqual(judgement[count], 0, judgement)
         self.assertLess(judgement["longest_silence_s"], 0.5, judgement)
 
