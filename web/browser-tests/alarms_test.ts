@@ -87,3 +87,30 @@ describe('keys while a field has the focus', () => {
     expect(sent('land_all') + sent('emergency_stop')).toBe(0);
   });
 });
+
+it('Motors of one drone are stopped in the flight that is shown only; those of all in any', async () => {
+  await played.page.keyboard.press('Escape');
+  await played.page.keyboard.press('1');
+  const hold = async (name: string): Promise<Record<string, unknown> | undefined> => {
+    const before = sent('emergency_stop');
+    await played.page.getByRole('button', { name }).focus();
+    await played.page.keyboard.down(' ');
+    await expect.poll(() => sent('emergency_stop')).toBe(before + 1);
+    await played.page.keyboard.up(' ');
+    return program.received.filter((message) => message['type'] === 'emergency_stop').at(-1);
+  };
+  expect(await hold('Stop motors of d1 (hold)')).toMatchObject({ drones: ['d1'], run: '1f', epoch: 1 });
+  expect(await hold('Emergency stop of all drones')).not.toHaveProperty('run');
+});
+
+it('A button that is held for one drone does not stop it once another is chosen', async () => {
+  await played.page.keyboard.press('Escape');
+  await played.page.keyboard.press('1');
+  await played.page.getByRole('button', { name: 'Stop motors of d1 (hold)' }).hover();
+  await played.page.mouse.down();
+  await played.page.keyboard.press('3');
+  await played.page.getByRole('button', { name: 'Stop motors of d3 (hold)' }).waitFor();
+  await new Promise((done) => setTimeout(done, 1200)); // longer than the button wants to be held
+  await played.page.mouse.up();
+  expect(sent('emergency_stop')).toBe(0);
+});

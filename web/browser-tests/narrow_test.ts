@@ -7,8 +7,10 @@ import { usePlayedPage } from './played_page';
 
 const played = usePlayedPage();
 
+let program: FakeProgram;
+
 function begin(width: number, height: number, missionName: string): Promise<void> {
-  const program = new FakeProgram(4, [3, 3]);
+  program = new FakeProgram(4, [3, 3]);
   program.missionName = missionName;
   return played.begin(program, { width, height });
 }
@@ -56,6 +58,23 @@ describe.each(['paper', kLongName])('with the mission “%s”', (name) => {
     await keepPicture(played.page, `top_${width}${name === kLongName ? '_long' : ''}`);
     expect(await faultsOfTopBar()).toEqual([]);
   });
+});
+
+it.each([
+  [1366, 768],
+  [1024, 768],
+  [768, 1024],
+  [400, 800],
+  [360, 640],
+])('Nothing lies over the alarms at %i x %i, whatever is told', async (width, height) => {
+  await begin(width, height, 'paper');
+  for (let number = 2; number < 9; number++) program.sayDeed(number, 'Ben', 'emergency_stop');
+  await played.page.getByTestId('notices').getByText('Ben').first().waitFor();
+  await keepPicture(played.page, `told_${width}`);
+  expect(await faultsOfTopBar()).toEqual([]);
+  // A narrow page scrolls: its alarms stay within reach.
+  await played.page.evaluate(() => window.scrollTo(0, document.body.scrollHeight));
+  expect(await faultsOfTopBar()).toEqual([]);
 });
 
 it('The top bar never overflows from 360 px up', async () => {

@@ -110,8 +110,9 @@ export class ConsoleLink {
     return this.current;
   }
 
+  /** Connects, in place of whatever connection there is: never two at once. */
   open(): void {
-    this.cancelRetry();
+    this.shut();
     this.closing = '';
     if (this.current.phase !== 'lost') this.change('connecting', '');
     const socket = this.world.openSocket();

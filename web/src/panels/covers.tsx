@@ -90,9 +90,12 @@ function NotLive() {
         {session.isConnected.value ? <StillConnected /> : <Unconnected />}
         {phase === 'lost' && <span class="dim"> Next try in {wait.toFixed(0)} s.</span>}
       </p>
-      <button type="button" onClick={() => session.link.open()}>
-        Try now
-      </button>
+      {/* While something is open it may still carry LAND ALL: it is not given up for a try. */}
+      {!session.isConnected.value && (
+        <button type="button" onClick={() => session.link.open()}>
+          Try now
+        </button>
+      )}
     </div>
   );
 }
@@ -171,10 +174,16 @@ function Empty() {
     editor.tool.value !== 'select';
   if (isHidden) return null;
   const mayEdit = session.mayOperate.value;
+  void session.beat.value;
+  const active = session.snapshot?.active ?? 0;
   return (
     <div class="cover">
       <h2>Drop points on the field to start</h2>
-      <p>Nothing is watched, so the drones hover. Click a few places that matter; Enter sends the swarm.</p>
+      <p>
+        {active > 0 ? 'Nothing is watched, so the active drones hover.' : 'Nothing is watched, and no drone is active.'}{' '}
+        Click a few places that matter; Enter commits them, and{' '}
+        {active > 0 ? 'sends the swarm' : 'whatever takes off goes there'}.
+      </p>
       <div class="row">
         <button type="button" class="primary" disabled={!mayEdit} onClick={() => editor.take('point')}>
           <Icon name="point" />

@@ -118,7 +118,7 @@ export function Inspector() {
           <Gauge drone={drone} kind="velocity" name="flown" />
         </div>
         <WhyPanel />
-        <StopOne id={id} />
+        <StopOne key={id} id={id} />
       </div>
     </section>
   );

@@ -25,7 +25,12 @@ export function ProgramHealth() {
   );
 }
 
-const kIdle = ['', 'No targets: the drones hover.', 'No drone is active: nothing is covered.'];
+/** Why nothing is covered; which drones stand, hover or fall, their own labels say. */
+function idleness(idle: number, active: number): string {
+  if (idle === 0) return '';
+  if (idle === 2) return 'No drone is active: nothing is covered.';
+  return active > 0 ? 'No targets: the active drones hover.' : 'No targets, and no drone is active.';
+}
 
 /** What keeps the swarm from covering, or from keeping every rule; nothing while all is well. */
 export function SwarmHealth() {
@@ -34,7 +39,7 @@ export function SwarmHealth() {
   const { snapshot } = session;
   if (!snapshot) return null;
   const said = [
-    kIdle[snapshot.idle] ?? '',
+    idleness(snapshot.idle, snapshot.active),
     snapshot.isFallback ? 'For some drone no velocity satisfies every rule.' : '',
   ].filter((text) => text !== '');
   if (said.length === 0) return null;

@@ -62,7 +62,10 @@ export class FleetOrders {
   emergencyStop(drones: readonly string[] | 'all'): void {
     const who = drones === 'all' ? 'all drones' : drones.join(', ');
     const done = `EMERGENCY STOP: motors off, ${who}.`;
-    void this.session.bringDown({ type: 'emergency_stop', drones }, 'EMERGENCY STOP', done);
+    const command = { type: 'emergency_stop', drones };
+    // A stop of all is always meant; "cf1" may be another drone in another flight.
+    const meant = drones === 'all' ? command : this.session.forThisFlight(command);
+    void this.session.bringDown(meant, 'EMERGENCY STOP', done);
   }
 
   /** Says that a button was held too shortly to stop motors, and what else there is to do. */
