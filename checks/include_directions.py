@@ -8,13 +8,14 @@ import pathlib
 import re
 import sys
 
-CORE = ("core/field", "core/ergodic", "core/safety", "core/dynamics", "core/guidance")
+CORE = ("core/field", "core/parallel", "core/ergodic", "core/safety", "core/dynamics", "core/guidance")
 
 # room: the other rooms that it may include.
 ARROWS = {
     "core/field": (),
+    "core/parallel": (),
     "core/ergodic": ("core/field",),
-    "core/safety": ("core/field",),
+    "core/safety": ("core/field", "core/parallel"),
     "core/dynamics": ("core/field",),
     "core/guidance": ("core/field", "core/safety"),
     "swarm": CORE,
@@ -38,8 +39,8 @@ LIBRARIES = {
 }
 TEST_LIBRARIES = ("gtest", "gmock", "rapidcheck", "nlohmann")
 
-# Pure rooms: no clock, thread, file, log, global random numbers.
-PURE = (*CORE, "swarm")
+# Pure rooms: no clock, thread, file, log, global random numbers. Who owns threads is what core/parallel is for.
+PURE = (*(room for room in CORE if room != "core/parallel"), "swarm")
 IMPURE_HEADERS = {
     "atomic", "barrier", "condition_variable", "coroutine", "csignal", "cstdio", "ctime", "filesystem", "fstream",
     "future", "iostream", "latch", "mutex", "random", "semaphore", "shared_mutex", "stop_token", "syncstream", "thread",
