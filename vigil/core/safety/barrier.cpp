@@ -5,18 +5,16 @@
 #include <cmath>
 #include <limits>
 
+#include "vigil/core/safety/pair_formula.hpp"
+
 namespace vigil::safety {
 namespace {
 
-/// What the escape from h < 0 speeds up with: a drone that is R - d too close asks for 5/s (R - d).
-constexpr double kEscapeRate = 5.0;
+using pair_formula::kCoincident;
+
 /// A gain may be low to leave time for what is lost or slow; what must hold when there is no room for more, and
 /// outranks walls, must not use that up.
 constexpr double kBareGain = 5.0;
-/// Closer to a barrier's boundary than this is on it. Rounding of one tick must not look like a violation.
-constexpr double kOnBoundary = 1e-9;
-/// Points closer than this have no direction from one to the other.
-constexpr double kCoincident = 1e-9;
 
 double lag_of(const BarrierParameters& parameters) {
   return parameters.kind == BarrierKind::kLagAware ? parameters.lag_s : 0.0;
@@ -26,42 +24,25 @@ double pair_margin_of(const BarrierParameters& parameters) {
   return parameters.kind == BarrierKind::kLagAware ? parameters.pair_margin_m : 0.0;
 }
 
-double gamma(const BarrierParameters& parameters, double gain, double h) {
-  return parameters.kind == BarrierKind::kPaper ? gain * h * h * h : gain * h;
-}
-
-/// With zero-order hold |z_ij(t + dt)|^2 >= |z_ij|^2 + 2 z_ij.(u_i - u_j) dt, so h stays >= 0 where the drones that
-/// give way use up no more than h within the tick.
-double gamma_d(const BarrierParameters& parameters, double gain, double h, double hold_s) {
-  return std::min(gamma(parameters, gain, h), h / hold_s);
-}
-
-/// How fast to leave a barrier that is broken by `depth` metres. Not faster than u_max / 2: at u_max the row would
-/// touch the disk of speeds in one point, and any second row would make the problem infeasible just when it matters
-/// most. Together with what an uncooperative body asks for not faster than u_max, for the same reason.
-double escape_speed(const BarrierParameters& parameters, double depth, double closing_speed) {
-  const double room = std::max(0.0, parameters.u_max_m_s - closing_speed);
-  return std::min({kEscapeRate * depth, 0.5 * parameters.u_max_m_s, room});
-}
-
-/// n.u >= -gamma_d(d^2 - R^2) / (2 lever) + closing_speed: a barrier h = d^2 - R^2 with the gradient 2 lever n.
-double squared_offset(const BarrierParameters& parameters, const PairBarrier& barrier, double distance, double lever) {
-  const double radius = barrier.radius_m;
-  const double closing_speed = barrier.closing_speed_m_s;
-  if (distance < radius - kOnBoundary)
-    return closing_speed + escape_speed(parameters, radius - distance, closing_speed);
-  if (lever <= kCoincident) return closing_speed;  // only where the radius is 0
-  const double h = std::max(0.0, (distance - radius) * (distance + radius));
-  return closing_speed - gamma_d(parameters, barrier.gain, h, barrier.hold_s) / (2.0 * lever);
+pair_formula::Sampling sampling_of(double lag, double dt) {
+  if (lag <= 0.0) return {.dt_s = dt};
+  const double fade = std::exp(-dt / lag);  // what a tick leaves of v - u
+  return {.lag_squared = lag * lag,
+          .slope_s = lag * lag * fade * (1.0 - fade) / dt,
+          .relief = 1.0 - fade * fade,
+          .dt_s = dt};
 }
 
 /// The barrier of something that stands still, at a signed distance.
 double fixed_offset(const BarrierParameters& parameters, double distance, double radius) {
-  if (parameters.kind == BarrierKind::kPaper)
-    return squared_offset(parameters, {.radius_m = radius, .gain = parameters.wall_gain, .hold_s = parameters.dt_s},
-                          distance, distance);
-  if (distance < radius - kOnBoundary) return escape_speed(parameters, radius - distance, 0.0);
-  return -gamma_d(parameters, parameters.wall_gain, std::max(0.0, distance - radius), parameters.dt_s);
+  const bool is_paper = parameters.kind == BarrierKind::kPaper;
+  if (is_paper) {
+    const PairBarrier wall{.radius_m = radius, .gain = parameters.wall_gain, .hold_s = parameters.dt_s};
+    return pair_formula::squared_offset(pair_formula::rule_of(parameters, wall), radius, distance, distance);
+  }
+  if (distance < radius - pair_formula::kOnBoundary)
+    return pair_formula::escape_speed(parameters.u_max_m_s, radius - distance, 0.0);
+  return -pair_formula::gamma_d(is_paper, parameters.wall_gain, std::max(0.0, distance - radius), parameters.dt_s);
 }
 
 std::optional<HalfPlane> binding(const BarrierParameters& parameters, const HalfPlane& row) {
@@ -74,10 +55,6 @@ bool beyond_wall_range(const BarrierParameters& parameters, double distance, dou
   if (!parameters.wall_range_m) return false;
   return distance > std::max(*parameters.wall_range_m, radius + parameters.u_max_m_s * parameters.dt_s);
 }
-
-/// Along x, by index: then the first and the last of many drones in one point are always free to leave it. Directions
-/// that differ from pair to pair would surround every one of them, and none could move.
-Vec2 parting_direction(int own, int other) { return own < other ? Vec2(1.0, 0.0) : Vec2(-1.0, 0.0); }
 
 /// To the right of the edge: out of the polygon.
 Vec2 outward(const field::Segment& edge) {
@@ -97,7 +74,8 @@ double reach_of_row(const BarrierParameters& parameters, const PairBarrier& barr
   const double held = by_rate(1.0 / barrier.hold_s);
   if (parameters.kind == BarrierKind::kLagAware) return std::max(held, by_rate(barrier.gain));
   const auto slack = [&](double d) {
-    return gamma(parameters, barrier.gain, (d - barrier.radius_m) * (d + barrier.radius_m)) - 2.0 * d * closing;
+    const double h = (d - barrier.radius_m) * (d + barrier.radius_m);
+    return barrier.gain * h * h * h - 2.0 * d * closing;
   };
   double low = barrier.radius_m;
   double high = std::max(1.0, 2.0 * barrier.radius_m);
@@ -107,23 +85,6 @@ double reach_of_row(const BarrierParameters& parameters, const PairBarrier& barr
     (slack(middle) < 0.0 ? low : high) = middle;
   }
   return std::max(held, high);
-}
-
-/// h of a pair over the next tick: h(t + dt) >= h + (relief + 2 half_slope . u_ij) dt for every u_ij that is held, [5].
-struct SampledPair {
-  double distance_m = 0.0;  ///< sqrt(h + R^2): |p_ij| without a lag
-  Vec2 half_slope = Vec2::Zero();
-  double relief_per_s = 0.0;
-};
-
-SampledPair sample(const PairBarrier& barrier, double dt, const Vec2& z_ij, const Vec2& v_ij) {
-  const double lag = barrier.lag_s;
-  if (lag <= 0.0) return {.distance_m = z_ij.norm(), .half_slope = z_ij, .relief_per_s = 0.0};
-  const double fade = std::exp(-dt / lag);  // what a tick leaves of v - u
-  const double swing = lag * lag * v_ij.squaredNorm();
-  return {.distance_m = std::sqrt(std::max(0.0, z_ij.squaredNorm() - swing)),
-          .half_slope = z_ij - lag * lag * fade * (1.0 - fade) / dt * v_ij,
-          .relief_per_s = swing * (1.0 - fade * fade) / dt};
 }
 
 double closing_speed_of(const Body& other) {
@@ -163,6 +124,17 @@ PairBarrier barrier_of_two_drones(const BarrierParameters& parameters) {
 }
 
 }  // namespace
+
+Vec2 parting_direction(int own, int other) { return own < other ? Vec2(1.0, 0.0) : Vec2(-1.0, 0.0); }
+
+pair_formula::Rule pair_formula::rule_of(const BarrierParameters& parameters, const PairBarrier& barrier) {
+  return {.is_paper = parameters.kind == BarrierKind::kPaper,
+          .u_max_m_s = parameters.u_max_m_s,
+          .gain = barrier.gain,
+          .hold_s = barrier.hold_s,
+          .closing_speed_m_s = barrier.closing_speed_m_s,
+          .sampling = sampling_of(barrier.lag_s, parameters.dt_s)};
+}
 
 double barrier_radius(const BarrierParameters& parameters) { return barrier_of_two_drones(parameters).radius_m; }
 
@@ -213,11 +185,10 @@ double wall_reserve(const BarrierParameters& parameters, const Body& own) {
 
 std::optional<HalfPlane> pair_row(const BarrierParameters& parameters, const PairBarrier& barrier, const Vec2& z_ij,
                                   const Vec2& v_ij, int own, int other, Priority priority) {
-  const SampledPair pair = sample(barrier, parameters.dt_s, z_ij, v_ij);
-  const double lever = pair.half_slope.norm();
-  const double offset = squared_offset(parameters, barrier, pair.distance_m, lever);
-  if (lever <= kCoincident) return binding(parameters, {parting_direction(own, other), offset, priority});
-  return binding(parameters, {pair.half_slope / lever, offset - 0.25 * pair.relief_per_s / lever, priority});
+  const pair_formula::Row row = pair_formula::row(pair_formula::rule_of(parameters, barrier), barrier.radius_m,
+                                                  z_ij.x(), z_ij.y(), v_ij.x(), v_ij.y());
+  if (row.lever <= kCoincident) return binding(parameters, {parting_direction(own, other), row.offset, priority});
+  return binding(parameters, {Vec2(row.half_slope_x / row.lever, row.half_slope_y / row.lever), row.offset, priority});
 }
 
 double pair_reach(const BarrierParameters& parameters, const PairBarrier& barrier) {
@@ -283,7 +254,8 @@ WayOut way_out(const BarrierParameters& parameters, std::span<const field::Segme
     way.edge = i;
     way.row.normal = distance > kCoincident ? Vec2(there / distance) : outward(outline[i]);
   }
-  way.row.offset = escape_speed(parameters, way.distance_m + no_fly_radius(parameters, 0.0), 0.0);
+  way.row.offset =
+      pair_formula::escape_speed(parameters.u_max_m_s, way.distance_m + no_fly_radius(parameters, 0.0), 0.0);
   way.row.priority = Priority::kWall;
   return way;
 }

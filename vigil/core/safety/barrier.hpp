@@ -58,6 +58,11 @@ struct PairBarrier {
                                                 const Vec2& z_ij, const Vec2& v_ij, int own, int other,
                                                 Priority priority);
 
+/// Where both points of a pair coincide. Along x, by index: then the first and the last of many drones in one point are
+/// always free to leave it. Directions that differ from pair to pair would surround every one of them, and none could
+/// move.
+[[nodiscard]] Vec2 parting_direction(int own, int other);
+
 /// The distance of z beyond which pair_row() leaves the row out, whatever the velocities up to u_max.
 [[nodiscard]] double pair_reach(const BarrierParameters& parameters, const PairBarrier& barrier);
 

@@ -20,22 +20,21 @@ bool is_finite(const Body& body) {
          std::isfinite(body.uncooperative_speed_m_s);
 }
 
-/// The barrier of the slowest, oldest and most wayward pair of these bodies: none of theirs reaches farther.
-PairBarrier widest_barrier(const BarrierParameters& parameters, std::span<const Body> bodies) {
+/// Drones that one thread steers before it asks for more.
+constexpr std::size_t kPart = 512;
+
+std::size_t parts_of(std::size_t count) { return (count + kPart - 1) / kPart; }
+
+/// The barrier of the slowest, oldest and most wayward pair of such bodies: none of theirs reaches farther.
+PairBarrier widest_barrier(const BarrierParameters& parameters, const Extremes& extremes) {
   Body drone;
+  drone.age_s = extremes.age_s;
+  PairBarrier widest = separation_barrier(parameters, drone, drone);
+  if (!extremes.is_any_uncontrolled) return widest;
   Body stranger;
   stranger.is_controlled = false;
-  bool is_any_uncontrolled = false;
-  for (const Body& body : bodies) {
-    if (!is_finite(body)) continue;
-    drone.age_s = std::max(drone.age_s, body.age_s);
-    if (body.is_controlled) continue;
-    is_any_uncontrolled = true;
-    stranger.uncooperative_speed_m_s = std::max(stranger.uncooperative_speed_m_s, body.uncooperative_speed_m_s);
-  }
-  PairBarrier widest = separation_barrier(parameters, drone, drone);
-  if (!is_any_uncontrolled) return widest;
-  stranger.age_s = drone.age_s;
+  stranger.age_s = extremes.age_s;
+  stranger.uncooperative_speed_m_s = extremes.uncooperative_speed_m_s;
   const PairBarrier other = separation_barrier(parameters, drone, stranger);
   widest.radius_m = std::max(widest.radius_m, other.radius_m);
   widest.closing_speed_m_s = other.closing_speed_m_s;
@@ -48,11 +47,6 @@ double range_of(const BarrierParameters& parameters, const PairBarrier& barrier)
   const double closing = parameters.u_max_m_s + std::max(parameters.u_max_m_s, barrier.closing_speed_m_s);
   const double longer = barrier.radius_m - barrier_radius(parameters);
   return std::max(*parameters.sensing_range_m + longer, barrier.radius_m + closing * parameters.dt_s);
-}
-
-/// The more speed a row asks for, the more it presses; what gives way later presses more.
-double pressure(const HalfPlane& row) {
-  return row.offset + static_cast<double>(kPriorities - 1 - static_cast<std::size_t>(row.priority));
 }
 
 /// Calls visit(outline, first) for every polygon among the edges: its edges, and the index of the first of them.
@@ -70,81 +64,126 @@ void for_each_outline(std::span<const field::Segment> edges, const Visit& visit)
 Filter::Filter(const BarrierParameters& parameters, const field::Field& field, std::size_t capacity)
     : parameters_(parameters),
       field_(field),
+      pair_rows_(parameters),
       grid_(field, std::min(derived_sensing_range(parameters), parameters.sensing_range_m.value_or(HUGE_VAL)),
             capacity),
-      points_(capacity, nowhere()) {}
+      bodies_(capacity),
+      points_x_(capacity),
+      points_y_(capacity),
+      extremes_(parts_of(capacity)) {}
+
+void Extremes::include(const Body& body) noexcept {
+  if (!is_finite(body)) return;
+  age_s = std::max(age_s, body.age_s);
+  if (body.is_controlled) return;
+  is_any_uncontrolled = true;
+  uncooperative_speed_m_s = std::max(uncooperative_speed_m_s, body.uncooperative_speed_m_s);
+}
+
+void Extremes::include(const Extremes& others) noexcept {
+  age_s = std::max(age_s, others.age_s);
+  is_any_uncontrolled = is_any_uncontrolled || others.is_any_uncontrolled;
+  uncooperative_speed_m_s = std::max(uncooperative_speed_m_s, others.uncooperative_speed_m_s);
+}
 
 void Filter::run(std::span<const Body> bodies, std::span<const field::Segment> no_fly, std::span<const Vec2> u_nom,
-                 std::span<Vec2> u, std::span<FilterReport> reports) noexcept {
-  assert(bodies.size() <= points_.size() && u_nom.size() == bodies.size() && u.size() == bodies.size() &&
+                 std::span<Vec2> u, std::span<FilterReport> reports, parallel::Workers* workers) noexcept {
+  assert(bodies.size() <= bodies_.size() && u_nom.size() == bodies.size() && u.size() == bodies.size() &&
          reports.size() == bodies.size());
-  place(bodies);
-  for (std::size_t i = 0; i < bodies.size(); ++i) {
-    u[i].setZero();
-    reports[i] = {};
-    if (bodies[i].is_controlled) steer(i, bodies, no_fly, u_nom[i], u[i], reports[i]);
-  }
+  place(bodies, workers);
+  const std::span<const std::uint32_t> sorted = grid_.sorted();
+  parallel::for_each_part(workers, sorted.size(), kPart, [&](std::size_t first, std::size_t last, std::size_t) {
+    Desk desk;
+    for (std::size_t place = first; place < last; ++place) {
+      const std::size_t own = sorted[place];
+      Vec2 velocity = Vec2::Zero();
+      FilterReport report;
+      if (bodies_[place].is_controlled) steer(own, bodies_[place], no_fly, u_nom[own], velocity, report, desk);
+      u[own] = velocity;
+      reports[own] = report;
+    }
+  });
 }
 
 Explanation Filter::explain(std::size_t own, std::span<const Body> bodies, std::span<const field::Segment> no_fly,
                             const Vec2& u_nom) {
-  assert(own < bodies.size() && bodies.size() <= points_.size());
+  assert(own < bodies.size() && bodies.size() <= bodies_.size());
   Explanation why;
   why.u_nom = u_nom;
-  row_count_ = 0;
-  place(bodies);
-  if (bodies[own].is_controlled) steer(own, bodies, no_fly, u_nom, why.u, why.report);
-  why.rows.assign(rows_.begin(), rows_.begin() + static_cast<std::ptrdiff_t>(row_count_));
+  place(bodies, nullptr);
+  Desk desk;
+  if (bodies[own].is_controlled) steer(own, bodies[own], no_fly, u_nom, why.u, why.report, desk);
+  const std::span<const HalfPlane> half_planes = desk.rows.half_planes();
+  for (std::size_t row = 0; row < half_planes.size(); ++row)
+    why.rows.push_back({half_planes[row], desk.rows.what(row)});
   return why;
 }
 
-void Filter::place(std::span<const Body> bodies) noexcept {
-  for (std::size_t i = 0; i < bodies.size(); ++i) {
+void Filter::place(std::span<const Body> bodies, parallel::Workers* workers) noexcept {
+  const auto point_of = [&](std::size_t i) {
     const bool is_seen = bodies[i].is_obstacle && is_finite(bodies[i]);
-    points_[i] = is_seen ? barrier_point(parameters_, bodies[i]) : nowhere();
-  }
-  grid_.sort(std::span<const Vec2>(points_).first(bodies.size()));
-  const PairBarrier widest = widest_barrier(parameters_, bodies);
+    return is_seen ? barrier_point(parameters_, bodies[i]) : nowhere();
+  };
+  grid_.sort(bodies.size(), point_of, workers);
+  const std::span<const std::uint32_t> sorted = grid_.sorted();
+  parallel::for_each_part(workers, sorted.size(), kPart, [&](std::size_t first, std::size_t last, std::size_t) {
+    Extremes extremes;
+    for (std::size_t place = first; place < last; ++place) {
+      const Body& body = bodies[sorted[place]];
+      const Vec2 point = barrier_point(parameters_, body);
+      bodies_[place] = body;
+      points_x_[place] = point.x();
+      points_y_[place] = point.y();
+      extremes.include(body);
+    }
+    extremes_[first / kPart] = extremes;
+  });
+  Extremes extremes;
+  for (std::size_t part = 0; part < parts_of(bodies.size()); ++part) extremes.include(extremes_[part]);
+  const PairBarrier widest = widest_barrier(parameters_, extremes);
   reach_m_ = std::min(pair_reach(parameters_, widest), range_of(parameters_, widest));
 }
 
-void Filter::steer(std::size_t own, std::span<const Body> bodies, std::span<const field::Segment> no_fly,
-                   const Vec2& u_nom, Vec2& u, FilterReport& report) noexcept {
-  const Vec2 z = barrier_point(parameters_, bodies[own]);
-  report.input_rejected = !is_finite(bodies[own]) || !z.allFinite() || !u_nom.allFinite();
+void Filter::steer(std::size_t own, const Body& body, std::span<const field::Segment> no_fly, const Vec2& u_nom,
+                   Vec2& u, FilterReport& report, Desk& desk) const noexcept {
+  RowSet& rows = desk.rows;
+  rows.clear();
+  const Vec2 z = barrier_point(parameters_, body);
+  report.input_rejected = !is_finite(body) || !z.allFinite() || !u_nom.allFinite();
   if (report.input_rejected) return;
 
-  const double reserve_m = wall_reserve(parameters_, bodies[own]);
-  row_count_ = 0;
-  gather_pairs(own, z, bodies, report);
-  gather_walls(z, bodies[own], reserve_m, Priority::kDoubt, report);
-  gather_edges(z, bodies[own], no_fly, reserve_m, Priority::kDoubt, report);
-  gather_ways_out(z, bodies[own], no_fly, report);
-  PlanarQpSolution solution = solve_rows(u_nom);
+  const double reserve_m = wall_reserve(parameters_, body);
+  gather_pairs(own, body, z, report, desk);
+  gather_walls(z, body, reserve_m, Priority::kDoubt, rows);
+  gather_edges(z, body, no_fly, reserve_m, Priority::kDoubt, rows);
+  gather_ways_out(z, body, no_fly, rows);
+  PlanarQpSolution solution = solve(u_nom, rows.half_planes(), parameters_.u_max_m_s);
   if (!solution.feasible) {
     // What lost drones might do can contradict all else, noise alone can break a margin, and margins of two neighbours
     // can contradict each other or a wall. They give way first: to rows that ask for less, so that they matter only
     // now.
     report.margin_used = true;
-    gather_lesser_pairs(own, z, bodies, report);
+    gather_lesser_pairs(own, body, z, rows);
     const double margin_m = wall_margin(parameters_);
-    gather_walls(z, bodies[own], margin_m, Priority::kMargin, report);
-    gather_edges(z, bodies[own], no_fly, margin_m, Priority::kMargin, report);
-    gather_walls(z, bodies[own], 0.0, Priority::kWall, report);
-    gather_edges(z, bodies[own], no_fly, 0.0, Priority::kWall, report);
-    solution = solve_rows(u_nom);
+    gather_walls(z, body, margin_m, Priority::kMargin, rows);
+    gather_edges(z, body, no_fly, margin_m, Priority::kMargin, rows);
+    gather_walls(z, body, 0.0, Priority::kWall, rows);
+    gather_edges(z, body, no_fly, 0.0, Priority::kWall, rows);
+    solution = solve(u_nom, rows.half_planes(), parameters_.u_max_m_s);
   }
   u = solution.u;
-  write_report(solution, u_nom, report);
+  write_report(solution, u_nom, rows, report);
 }
 
-void Filter::write_report(const PlanarQpSolution& solution, const Vec2& u_nom, FilterReport& report) const noexcept {
+void Filter::write_report(const PlanarQpSolution& solution, const Vec2& u_nom, const RowSet& rows,
+                          FilterReport& report) const noexcept {
   for (const int row : solution.active) {
     if (row < 0) continue;
-    report.holding[static_cast<std::size_t>(report.holding_count)] = rows_[static_cast<std::size_t>(row)].what;
+    report.holding[static_cast<std::size_t>(report.holding_count)] = rows.what(static_cast<std::size_t>(row));
     ++report.holding_count;
   }
   report.speed_limited = solution.on_disk;
+  report.crowded = rows.is_crowded();
   const auto margin = static_cast<std::size_t>(Priority::kMargin);
   for (std::size_t priority = 0; priority < margin; ++priority)
     report.violation_m_s = std::max(report.violation_m_s, solution.violation[priority]);
@@ -152,94 +191,136 @@ void Filter::write_report(const PlanarQpSolution& solution, const Vec2& u_nom, F
   report.correction_m_s = (solution.u - u_nom).stableNorm();
 }
 
-PlanarQpSolution Filter::solve_rows(const Vec2& u_nom) noexcept {
-  for (std::size_t i = 0; i < row_count_; ++i) half_planes_[i] = rows_[i].half_plane;
-  return solve(u_nom, std::span<const HalfPlane>(half_planes_).first(row_count_), parameters_.u_max_m_s);
-}
-
-void Filter::gather_pairs(std::size_t own, const Vec2& z, std::span<const Body> bodies, FilterReport& report) noexcept {
-  double nearest = std::numeric_limits<double>::infinity();
-  grid_.visit_near(z, reach_m_, [&](std::size_t other) {
-    if (other == own) return;
-    const PairBarrier barrier = separation_barrier(parameters_, bodies[own], bodies[other]);
-    const Vec2 z_ij = z - points_[other];
-    if (z_ij.norm() > std::min(reach_m_, range_of(parameters_, barrier))) return;
-    const double distance = (bodies[own].position - bodies[other].position).norm();
-    const auto index = static_cast<int>(other);
-    if (distance < nearest) {
-      nearest = distance;
-      report.nearest = index;
-      report.nearest_distance_m = distance;
+void Filter::gather_pairs(std::size_t own, const Body& body, const Vec2& z, FilterReport& report,
+                          Desk& desk) const noexcept {
+  constexpr double kLonger = 1.0 + 1e-12;  // what is just within reach must not be lost here: it is measured again
+  const double reach_squared = reach_m_ * reach_m_ * kLonger;
+  desk.nearest_m = std::numeric_limits<double>::infinity();
+  desk.gathered = 0;
+  grid_.visit_parts(z, reach_m_, [&](std::size_t first, std::size_t last) {
+    while (first < last) {
+      const std::size_t end = std::min(last, first + (PairBatch::kSize - desk.gathered));
+      for (; first < end; ++first) {
+        const double x = z.x() - points_x_[first];
+        const double y = z.y() - points_y_[first];
+        desk.places[desk.gathered] = static_cast<std::uint32_t>(first);
+        desk.gathered += x * x + y * y <= reach_squared ? 1 : 0;
+      }
+      if (desk.gathered == PairBatch::kSize) add_pairs(own, body, z, report, desk);
     }
-    const Vec2 v_ij = bodies[own].velocity - bodies[other].velocity;
+  });
+  if (desk.gathered > 0) add_pairs(own, body, z, report, desk);
+  if (report.nearest >= 0) report.nearest_distance_m = desk.nearest_m;
+}
+
+/// The rows of those that were gathered.
+void Filter::add_pairs(std::size_t own, const Body& body, const Vec2& z, FilterReport& report,
+                       Desk& desk) const noexcept {
+  PairBatch& batch = desk.batch;
+  bool are_controlled = true;
+  for (std::size_t i = 0; i < desk.gathered; ++i) {
+    const std::size_t place = desk.places[i];
+    const Body& other = bodies_[place];
+    are_controlled = are_controlled && other.is_controlled;
+    batch.point_x[i] = points_x_[place];
+    batch.point_y[i] = points_y_[place];
+    batch.position_x[i] = other.position.x();
+    batch.position_y[i] = other.position.y();
+    batch.velocity_x[i] = other.velocity.x();
+    batch.velocity_y[i] = other.velocity.y();
+    batch.age_s[i] = other.age_s;
+  }
+  if (!are_controlled) return add_pairs_one_by_one(own, body, z, report, desk);
+  pair_rows_.compute(body, z, reach_m_, desk.gathered, batch);
+  const std::span<const std::uint32_t> sorted = grid_.sorted();
+  for (std::size_t i = 0; i < desk.gathered; ++i) {
+    const auto index = static_cast<int>(sorted[desk.places[i]]);
+    if (batch.excess_m[i] > 0.0 || index == static_cast<int>(own)) continue;
+    const double distance = batch.distance_m[i];
+    const bool is_nearest = distance < desk.nearest_m;
+    desk.nearest_m = is_nearest ? distance : desk.nearest_m;
+    report.nearest = is_nearest ? index : report.nearest;
+    const bool is_coincident = batch.lever[i] <= pair_formula::kCoincident;
+    const Vec2 normal =
+        is_coincident ? parting_direction(static_cast<int>(own), index) : Vec2(batch.normal_x[i], batch.normal_y[i]);
+    const bool is_binding = batch.offset[i] > -parameters_.u_max_m_s;
+    desk.rows.add_if(is_binding, {normal, batch.offset[i], Priority::kDoubt}, {RowKind::kNeighbour, index, distance});
+  }
+  desk.gathered = 0;
+}
+
+/// The same where some of them are not controlled: each has a barrier of its own.
+void Filter::add_pairs_one_by_one(std::size_t own, const Body& body, const Vec2& z, FilterReport& report,
+                                  Desk& desk) const noexcept {
+  for (std::size_t i = 0; i < desk.gathered; ++i) {
+    const std::size_t place = desk.places[i];
+    const Body& other = bodies_[place];
+    const auto index = static_cast<int>(grid_.sorted()[place]);
+    if (index == static_cast<int>(own)) continue;
+    const PairBarrier barrier = separation_barrier(parameters_, body, other);
+    const Vec2 z_ij = z - Vec2(points_x_[place], points_y_[place]);
+    if (z_ij.norm() > std::min(reach_m_, range_of(parameters_, barrier))) continue;
+    const double distance = (body.position - other.position).norm();
+    if (distance < desk.nearest_m) {
+      desk.nearest_m = distance;
+      report.nearest = index;
+    }
+    const Vec2 v_ij = body.velocity - other.velocity;
     const auto row = pair_row(parameters_, barrier, z_ij, v_ij, static_cast<int>(own), index, Priority::kDoubt);
-    if (row) add(*row, {RowKind::kNeighbour, index, distance}, report);
+    if (row) desk.rows.add(*row, {RowKind::kNeighbour, index, distance});
+  }
+  desk.gathered = 0;
+}
+
+void Filter::gather_lesser_pairs(std::size_t own, const Body& body, const Vec2& z, RowSet& rows) const noexcept {
+  grid_.visit_parts(z, reach_m_, [&](std::size_t first, std::size_t last) {
+    for (std::size_t place = first; place < last; ++place) {
+      const Body& other = bodies_[place];
+      const auto index = static_cast<int>(grid_.sorted()[place]);
+      const Vec2 z_ij = z - Vec2(points_x_[place], points_y_[place]);
+      if (index == static_cast<int>(own) || z_ij.norm() > reach_m_) continue;
+      const double distance = (body.position - other.position).norm();
+      const auto add_row = [&](const PairBarrier& barrier, Priority priority) {
+        const Vec2 v_ij = body.velocity - other.velocity;
+        const auto row = pair_row(parameters_, barrier, z_ij, v_ij, static_cast<int>(own), index, priority);
+        if (row) rows.add(*row, {RowKind::kNeighbour, index, distance});
+      };
+      add_row(margin_barrier(parameters_, other), Priority::kMargin);
+      add_row(bare_separation_barrier(parameters_, other), Priority::kSeparation);
+      add_row(contact_barrier(parameters_, other), Priority::kPhysicalRadius);
+    }
   });
 }
 
-void Filter::gather_lesser_pairs(std::size_t own, const Vec2& z, std::span<const Body> bodies,
-                                 FilterReport& report) noexcept {
-  grid_.visit_near(z, reach_m_, [&](std::size_t other) {
-    const Vec2 z_ij = z - points_[other];
-    if (other == own || z_ij.norm() > reach_m_) return;
-    const auto index = static_cast<int>(other);
-    const double distance = (bodies[own].position - bodies[other].position).norm();
-    const auto add_row = [&](const PairBarrier& barrier, Priority priority) {
-      const Vec2 v_ij = bodies[own].velocity - bodies[other].velocity;
-      const auto row = pair_row(parameters_, barrier, z_ij, v_ij, static_cast<int>(own), index, priority);
-      if (row) add(*row, {RowKind::kNeighbour, index, distance}, report);
-    };
-    add_row(margin_barrier(parameters_, bodies[other]), Priority::kMargin);
-    add_row(bare_separation_barrier(parameters_, bodies[other]), Priority::kSeparation);
-    add_row(contact_barrier(parameters_, bodies[other]), Priority::kPhysicalRadius);
-  });
-}
-
-void Filter::gather_walls(const Vec2& z, const Body& own, double reserve_m, Priority priority,
-                          FilterReport& report) noexcept {
+void Filter::gather_walls(const Vec2& z, const Body& body, double reserve_m, Priority priority,
+                          RowSet& rows) const noexcept {
   for (int wall = 0; wall < 4; ++wall) {
     const auto row = wall_row(parameters_, field_, z, wall, reserve_m, priority);
-    if (row) add(*row, {RowKind::kWall, wall, wall_distance(field_, own.position, wall)}, report);
+    if (row) rows.add(*row, {RowKind::kWall, wall, wall_distance(field_, body.position, wall)});
   }
 }
 
-void Filter::gather_edges(const Vec2& z, const Body& own, std::span<const field::Segment> no_fly, double reserve_m,
-                          Priority priority, FilterReport& report) noexcept {
+void Filter::gather_edges(const Vec2& z, const Body& body, std::span<const field::Segment> no_fly, double reserve_m,
+                          Priority priority, RowSet& rows) const noexcept {
   for_each_outline(no_fly, [&](std::span<const field::Segment> outline, std::size_t first) {
     if (encloses(outline, z)) return;
     for (std::size_t i = 0; i < outline.size(); ++i) {
       const auto row = edge_row(parameters_, outline[i], z, reserve_m, priority);
       if (!row) continue;
-      const double distance = (own.position - field::nearest_point(outline[i], own.position)).norm();
-      add(*row, {RowKind::kNoFly, static_cast<int>(first + i), distance}, report);
+      const double distance = (body.position - field::nearest_point(outline[i], body.position)).norm();
+      rows.add(*row, {RowKind::kNoFly, static_cast<int>(first + i), distance});
     }
   });
 }
 
-void Filter::gather_ways_out(const Vec2& z, const Body& own, std::span<const field::Segment> no_fly,
-                             FilterReport& report) noexcept {
+void Filter::gather_ways_out(const Vec2& z, const Body& body, std::span<const field::Segment> no_fly,
+                             RowSet& rows) const noexcept {
   for_each_outline(no_fly, [&](std::span<const field::Segment> outline, std::size_t first) {
     if (!encloses(outline, z)) return;
     const WayOut way = way_out(parameters_, outline, z);
-    const double distance = (own.position - field::nearest_point(outline[way.edge], own.position)).norm();
-    add(way.row, {RowKind::kNoFly, static_cast<int>(first + way.edge), -distance}, report);
+    const double distance = (body.position - field::nearest_point(outline[way.edge], body.position)).norm();
+    rows.add(way.row, {RowKind::kNoFly, static_cast<int>(first + way.edge), -distance});
   });
-}
-
-void Filter::add(const HalfPlane& half_plane, const HoldingRow& what, FilterReport& report) noexcept {
-  const auto presses_more = [](const GivenRow& a, const GivenRow& b) {
-    return pressure(a.half_plane) > pressure(b.half_plane);
-  };
-  if (row_count_ < kMaxRows) {
-    rows_[row_count_++] = {half_plane, what};
-    if (row_count_ == kMaxRows) std::make_heap(rows_.begin(), rows_.end(), presses_more);
-    return;
-  }
-  report.crowded = true;
-  if (pressure(half_plane) <= pressure(rows_.front().half_plane)) return;
-  std::pop_heap(rows_.begin(), rows_.end(), presses_more);  // the one that presses least goes to the end
-  rows_.back() = {half_plane, what};
-  std::push_heap(rows_.begin(), rows_.end(), presses_more);
 }
 
 }  // namespace vigil::safety

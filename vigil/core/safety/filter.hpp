@@ -7,20 +7,14 @@
 
 #include "vigil/core/field/field.hpp"
 #include "vigil/core/field/polygon.hpp"
+#include "vigil/core/parallel/workers.hpp"
 #include "vigil/core/safety/body.hpp"
 #include "vigil/core/safety/neighbour_grid.hpp"
+#include "vigil/core/safety/pair_rows.hpp"
 #include "vigil/core/safety/planar_qp.hpp"
+#include "vigil/core/safety/row_set.hpp"
 
 namespace vigil::safety {
-
-enum class RowKind : std::uint8_t { kNeighbour, kWall, kNoFly };
-
-/// A constraint that holds a drone's velocity where it is.
-struct HoldingRow {
-  RowKind kind = RowKind::kNeighbour;
-  int index = -1;           ///< of the other body, the wall (0 left, 1 right, 2 bottom, 3 top) or the no-fly edge
-  double distance_m = 0.0;  ///< between positions, or from the wall or edge (signed)
-};
 
 /// What the filter did to one drone in one tick.
 struct FilterReport {
@@ -37,12 +31,6 @@ struct FilterReport {
   double nearest_distance_m = 0.0;
 };
 
-/// A constraint of (10) as one drone was given it.
-struct GivenRow {
-  HalfPlane half_plane;
-  HoldingRow what;
-};
-
 /// Why one drone's velocity is what it is.
 struct Explanation {
   Vec2 u_nom = Vec2::Zero();   ///< what was wanted, m/s
@@ -51,19 +39,30 @@ struct Explanation {
   FilterReport report;
 };
 
+/// How old, and how wayward, the bodies of a tick are at worst. Those that are not finite do not count.
+struct Extremes {
+  double age_s = 0.0;
+  bool is_any_uncontrolled = false;
+  double uncooperative_speed_m_s = 0.0;  ///< of those
+
+  void include(const Body& body) noexcept;
+  void include(const Extremes& others) noexcept;
+};
+
 /// The safety filter: (10) solved exactly for every controlled drone, with gamma_d(h) = min(gamma(h), h / (2 dt)) for
 /// pairs and h / dt for walls, no-fly edges and bodies nobody controls, so that zero-order hold never breaks the
 /// guarantee; for h < 0 a linear rate of escape. Owns its work space, sized by `capacity` drones: run() allocates
-/// nothing. One thread at a time. Same input, same bits.
+/// nothing. One call at a time. Same input, same bits, whatever the number of threads and the instruction set.
 class Filter {
  public:
   Filter(const BarrierParameters& parameters, const field::Field& field, std::size_t capacity);
 
   /// Precondition: all spans but `no_fly` have the same length, at most capacity. Bodies may be anything, also NaN.
   /// `no_fly` holds the edges of any number of polygons, each polygon's as field::edges() gives them.
-  /// u[i] = 0 where bodies[i].is_controlled is false. Every |u[i]| <= u_max and finite.
+  /// u[i] = 0 where bodies[i].is_controlled is false. Every |u[i]| <= u_max and finite. With workers the drones are
+  /// shared out among them.
   void run(std::span<const Body> bodies, std::span<const field::Segment> no_fly, std::span<const Vec2> u_nom,
-           std::span<Vec2> u, std::span<FilterReport> reports) noexcept;
+           std::span<Vec2> u, std::span<FilterReport> reports, parallel::Workers* workers = nullptr) noexcept;
 
   /// What run() does to one drone, in full; no rows where it is not controlled. Allocates. Preconditions of run(), and
   /// own < bodies.size().
@@ -73,28 +72,41 @@ class Filter {
   [[nodiscard]] const BarrierParameters& parameters() const { return parameters_; }
 
  private:
-  void place(std::span<const Body> bodies) noexcept;
-  void steer(std::size_t own, std::span<const Body> bodies, std::span<const field::Segment> no_fly, const Vec2& u_nom,
-             Vec2& u, FilterReport& report) noexcept;
-  [[nodiscard]] PlanarQpSolution solve_rows(const Vec2& u_nom) noexcept;
-  void gather_pairs(std::size_t own, const Vec2& z, std::span<const Body> bodies, FilterReport& report) noexcept;
-  void gather_lesser_pairs(std::size_t own, const Vec2& z, std::span<const Body> bodies, FilterReport& report) noexcept;
-  void gather_walls(const Vec2& z, const Body& own, double reserve_m, Priority priority, FilterReport& report) noexcept;
-  void gather_edges(const Vec2& z, const Body& own, std::span<const field::Segment> no_fly, double reserve_m,
-                    Priority priority, FilterReport& report) noexcept;
-  void gather_ways_out(const Vec2& z, const Body& own, std::span<const field::Segment> no_fly,
-                       FilterReport& report) noexcept;
-  void add(const HalfPlane& half_plane, const HoldingRow& what, FilterReport& report) noexcept;
-  void write_report(const PlanarQpSolution& solution, const Vec2& u_nom, FilterReport& report) const noexcept;
+  /// What steering one drone after the other takes, beside what all share.
+  struct Desk {
+    RowSet rows;
+    PairBatch batch{};  // also what is in columns that nobody filled is a number
+    std::array<std::uint32_t, PairBatch::kSize> places;
+    std::size_t gathered = 0;
+    double nearest_m = 0.0;
+  };
+
+  void place(std::span<const Body> bodies, parallel::Workers* workers) noexcept;
+  void steer(std::size_t own, const Body& body, std::span<const field::Segment> no_fly, const Vec2& u_nom, Vec2& u,
+             FilterReport& report, Desk& desk) const noexcept;
+  void gather_pairs(std::size_t own, const Body& body, const Vec2& z, FilterReport& report, Desk& desk) const noexcept;
+  void add_pairs(std::size_t own, const Body& body, const Vec2& z, FilterReport& report, Desk& desk) const noexcept;
+  void add_pairs_one_by_one(std::size_t own, const Body& body, const Vec2& z, FilterReport& report,
+                            Desk& desk) const noexcept;
+  void gather_lesser_pairs(std::size_t own, const Body& body, const Vec2& z, RowSet& rows) const noexcept;
+  void gather_walls(const Vec2& z, const Body& body, double reserve_m, Priority priority, RowSet& rows) const noexcept;
+  void gather_edges(const Vec2& z, const Body& body, std::span<const field::Segment> no_fly, double reserve_m,
+                    Priority priority, RowSet& rows) const noexcept;
+  void gather_ways_out(const Vec2& z, const Body& body, std::span<const field::Segment> no_fly,
+                       RowSet& rows) const noexcept;
+  void write_report(const PlanarQpSolution& solution, const Vec2& u_nom, const RowSet& rows,
+                    FilterReport& report) const noexcept;
 
   BarrierParameters parameters_;
   field::Field field_;
+  PairRows pair_rows_;
   NeighbourGrid grid_;
-  std::vector<Vec2> points_;  ///< barrier_point() of every body; NaN where it is no obstacle for anybody
-  double reach_m_ = 0.0;      ///< no body farther than this from another's point has a row
-  std::array<GivenRow, kMaxRows> rows_;
-  std::array<HalfPlane, kMaxRows> half_planes_;  ///< of rows_, as the solver takes them
-  std::size_t row_count_ = 0;
+  // In the order of the grid: what is near in the field is near in memory.
+  std::vector<Body> bodies_;
+  std::vector<double> points_x_;  ///< of barrier_point()
+  std::vector<double> points_y_;
+  std::vector<Extremes> extremes_;  ///< of each part of them
+  double reach_m_ = 0.0;            ///< no body farther than this from another's point has a row
 };
 
 }  // namespace vigil::safety

@@ -13,7 +13,8 @@ std::size_t cells_along(double length, double cell, std::size_t most) {
 
 }  // namespace
 
-NeighbourGrid::NeighbourGrid(const field::Field& field, double cell_m, std::size_t capacity) : sorted_(capacity) {
+NeighbourGrid::NeighbourGrid(const field::Field& field, double cell_m, std::size_t capacity)
+    : cells_(capacity), sorted_(capacity) {
   const auto points = static_cast<double>(std::max<std::size_t>(1, capacity));
   const double cell = std::max(cell_m, std::sqrt(field.area() / (4.0 * points)));
   const std::size_t most = 4 * std::max<std::size_t>(1, capacity);
@@ -24,17 +25,13 @@ NeighbourGrid::NeighbourGrid(const field::Field& field, double cell_m, std::size
   first_.resize(columns_ * rows_ + 1);
 }
 
-void NeighbourGrid::sort(std::span<const Vec2> points) noexcept {
-  assert(points.size() <= sorted_.size());
+void NeighbourGrid::sort_cells() noexcept {
+  assert(count_ <= sorted_.size());
   std::fill(first_.begin(), first_.end(), 0u);
-  for (const Vec2& p : points) {
-    if (p.allFinite()) ++first_[number_of(p)];
-  }
+  for (std::size_t i = 0; i < count_; ++i) ++first_[cells_[i]];
   std::uint32_t end = 0;
   for (std::uint32_t& cell : first_) cell = end += cell;  // now where each cell ends
-  for (std::size_t i = points.size(); i-- > 0;) {
-    if (points[i].allFinite()) sorted_[--first_[number_of(points[i])]] = static_cast<std::uint32_t>(i);
-  }
+  for (std::size_t i = count_; i-- > 0;) sorted_[--first_[cells_[i]]] = static_cast<std::uint32_t>(i);
 }
 
 }  // namespace vigil::safety
