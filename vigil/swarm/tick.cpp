@@ -1,8 +1,10 @@
 #include "vigil/swarm/tick.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cassert>
 #include <cmath>
+#include <limits>
 
 #include "vigil/core/ergodic/gradient_controller.hpp"
 #include "vigil/core/safety/barrier.hpp"
@@ -24,6 +26,10 @@ ergodic::LookAheadParameters look_ahead_parameters(const SwarmParameters& parame
   result.dt_s = parameters.dt_s;
   result.horizon_s = parameters.look_ahead_s;
   return result;
+}
+
+bool looks_ahead(const SwarmParameters& parameters) {
+  return parameters.controller == ergodic::ControllerKind::kLookAhead;
 }
 
 guidance::SeekerParameters seeker_parameters(const SwarmParameters& parameters) {
@@ -73,6 +79,12 @@ double wandering_speed(const DroneMemory& drone, double u_max) {
   return std::min(u_max, drone.last_good.velocity.norm() + kChange * u_max);
 }
 
+/// Drones that one thread looks after before it asks for more.
+constexpr std::size_t kPart = 512;
+
+/// Small swarms never meet a second thread.
+std::size_t threads_worth(std::size_t drones) { return drones > kPart ? parallel::kMostThreads : 1; }
+
 /// Whether it is about to leave the ground.
 bool wants_up(const DroneMemory& drone) { return drone.intent == Intent::kTakeOff; }
 
@@ -81,14 +93,17 @@ bool wants_up(const DroneMemory& drone) { return drone.intent == Intent::kTakeOf
 SwarmState::SwarmState(const SwarmParameters& parameters)
     : parameters_(parameters),
       basis_(parameters.field, parameters.basis_max_index, parameters.basis_smoothness),
-      kernel_(basis_),
+      kernels_(threads_worth(parameters.drones), ergodic::Kernel(basis_)),
       statistics_(basis_, parameters.accounting, parameters.memory_s),
-      look_ahead_(basis_, look_ahead_parameters(parameters), parameters.drones),
+      look_ahead_(basis_, look_ahead_parameters(parameters), looks_ahead(parameters) ? parameters.drones : 0),
       goal_seeker_(seeker_parameters(parameters), parameters.drones),
       filter_(parameters.barrier, parameters.field, parameters.drones),
+      air_(parameters.field, safety::barrier_radius(parameters.barrier), parameters.drones),
       flown_(parameters.drones, parameters.dt_s, longest_prediction_s(parameters)),
       target_(no_target(basis_)),
       drones_(parameters.drones),
+      notes_((parameters.drones + kPart - 1) / kPart),
+      activities_before_(parameters.drones),
       motions_(parameters.drones),
       seen_ages_(parameters.drones, DroneObservation::kNever),
       bodies_(parameters.drones),
@@ -106,8 +121,7 @@ SwarmState::SwarmState(const SwarmParameters& parameters)
   active_.reserve(parameters.drones);
   active_before_.reserve(parameters.drones);
   active_positions_.reserve(parameters.drones);
-  departures_.reserve(parameters.drones);
-  slopes_.reserve(parameters.drones);
+  if (looks_ahead(parameters)) departures_.reserve(parameters.drones);
   active_u_.reserve(parameters.drones);
   travellers_.reserve(parameters.drones);
   travel_u_.reserve(parameters.drones);
@@ -198,19 +212,38 @@ void SwarmState::take_commands(std::span<const Command> commands, Snapshot& out)
   }
 }
 
-void SwarmState::remember_drones(std::span<const DroneObservation> observations) noexcept {
-  for (std::size_t index = 0; index < drones_.size(); ++index)
-    remember(drones_[index], observations[index], parameters_.dt_s);
+template <typename Body>
+void SwarmState::for_each_drone(parallel::Workers* workers, Body&& body) noexcept {
+  parallel::for_each_part(workers, drones_.size(), kPart, [&](std::size_t first, std::size_t last, std::size_t) {
+    PartNote& note = notes_[first / kPart];
+    for (std::size_t index = first; index < last; ++index) body(index, note);
+  });
 }
 
-void SwarmState::judge_drones(Snapshot& out) noexcept {
-  for (std::size_t index = 0; index < drones_.size(); ++index) {
+bool SwarmState::is_any(bool PartNote::* what) const noexcept {
+  return std::any_of(notes_.begin(), notes_.end(), [&](const PartNote& note) { return note.*what; });
+}
+
+void SwarmState::judge_drones(std::span<const DroneObservation> observations, bool are_remembered, Snapshot& out,
+                              parallel::Workers* workers) noexcept {
+  std::fill(notes_.begin(), notes_.end(), PartNote{});
+  for_each_drone(workers, [&](std::size_t index, PartNote& note) {
     DroneMemory& drone = drones_[index];
-    const Activity before = drone.activity;
+    if (!are_remembered) remember(drone, observations[index], parameters_.dt_s);
+    activities_before_[index] = drone.activity;
     judge(drone, parameters_.health, parameters_.dt_s);
-    if (drone.activity != before)
-      out.note(
-          {.kind = EventKind::kActivityChanged, .drone = DroneId(index), .before = before, .after = drone.activity});
+    predict(index);
+    note.has_change = note.has_change || drone.activity != activities_before_[index];
+    note.active += drone.activity == Activity::kActive ? 1 : 0;
+    note.has_traveller = note.has_traveller || drone.activity == Activity::kTravelling;
+    note.has_starter = note.has_starter || wants_up(drone);
+  });
+  if (!is_any(&PartNote::has_change)) return;
+  for (std::size_t index = 0; index < drones_.size(); ++index) {
+    const Activity before = activities_before_[index];
+    const Activity after = drones_[index].activity;
+    if (after != before)
+      out.note({.kind = EventKind::kActivityChanged, .drone = DroneId(index), .before = before, .after = after});
   }
 }
 
@@ -231,46 +264,52 @@ Vec2 SwarmState::within_walls(const Vec2& place) const noexcept {
 /// more: what was ordered before is still on its way to it. While nothing new is seen of it, it is where its orders
 /// lead. A pilot's drone follows no orders, one that says that it failed stops, and the paper's barrier knows of no
 /// delay.
-void SwarmState::predict_drones() noexcept {
-  for (std::size_t index = 0; index < drones_.size(); ++index) {
-    const DroneObservation& known = drones_[index].last_good;
-    const bool is_new = known.age_s < seen_ages_[index] + 0.5 * parameters_.dt_s;
-    seen_ages_[index] = known.age_s;
-    const Motion seen{known.position, known.velocity};
-    const bool is_paper = parameters_.barrier.kind == safety::BarrierKind::kPaper;
-    const double lag_s = parameters_.barrier.lag_s;
-    Motion ahead = seen;
-    const Activity activity = drones_[index].activity;
-    if (!is_paper && activity == Activity::kVehicleFailed) {
-      ahead = {seen.position + lag_s * seen.velocity, Vec2::Zero()};
-    } else if (!is_paper && activity != Activity::kOverridden) {
-      ahead = is_new ? flown_.ahead(index, seen, known.age_s + parameters_.command_delay_s, lag_s)
-                     : flown_.ahead(index, motions_[index], parameters_.dt_s, lag_s);
-    }
-    const bool is_finite = ahead.position.allFinite() && ahead.velocity.allFinite();
-    motions_[index] = is_finite ? ahead : seen;
+void SwarmState::predict(std::size_t index) noexcept {
+  const DroneObservation& known = drones_[index].last_good;
+  const bool is_new = known.age_s < seen_ages_[index] + 0.5 * parameters_.dt_s;
+  seen_ages_[index] = known.age_s;
+  const Motion seen{known.position, known.velocity};
+  const bool is_paper = parameters_.barrier.kind == safety::BarrierKind::kPaper;
+  const double lag_s = parameters_.barrier.lag_s;
+  Motion ahead = seen;
+  const Activity activity = drones_[index].activity;
+  if (!is_paper && activity == Activity::kVehicleFailed) {
+    ahead = {seen.position + lag_s * seen.velocity, Vec2::Zero()};
+  } else if (!is_paper && activity != Activity::kOverridden) {
+    ahead = is_new ? flown_.ahead(index, seen, known.age_s + parameters_.command_delay_s, lag_s)
+                   : flown_.ahead(index, motions_[index], parameters_.dt_s, lag_s);
   }
+  const bool is_finite = ahead.position.allFinite() && ahead.velocity.allFinite();
+  motions_[index] = is_finite ? ahead : seen;
 }
 
 /// I_a(t) of (13).
-void SwarmState::gather_active() noexcept {
-  active_before_.swap(active_);
-  active_.clear();
-  active_positions_.clear();
-  departures_.clear();
-  for (std::size_t index = 0; index < drones_.size(); ++index) {
-    if (drones_[index].activity != Activity::kActive) continue;
-    active_.push_back(index);
-    const DroneObservation& known = drones_[index].last_good;
-    active_positions_.push_back(known.position);
-    departures_.push_back({.drone = index, .position = motions_[index].position, .velocity = motions_[index].velocity});
+void SwarmState::gather_active(parallel::Workers* workers) noexcept {
+  std::size_t count = 0;
+  for (PartNote& note : notes_) {
+    note.first_active = count;
+    count += note.active;
   }
+  const bool has_departures = looks_ahead(parameters_);
+  active_before_.swap(active_);
+  active_.resize(count);  // all within their capacities
+  active_positions_.resize(count);
+  departures_.resize(has_departures ? count : 0);
+  for_each_drone(workers, [&](std::size_t index, PartNote& note) {
+    u_nom_[index].setZero();
+    if (drones_[index].activity != Activity::kActive) return;
+    const std::size_t at = note.first_active++;
+    active_[at] = static_cast<std::uint32_t>(index);
+    active_positions_[at] = drones_[index].last_good.position;
+    if (has_departures)
+      departures_[at] = {.drone = index, .position = motions_[index].position, .velocity = motions_[index].velocity};
+  });
   if (active_ != active_before_) ++active_set_;
 }
 
 void SwarmState::measure_coverage(Snapshot& out) noexcept {
   // Hovering for want of targets is no coverage: it would weigh on the statistics of the targets to come.
-  if (target_.has_targets) statistics_.add(kernel_, active_positions_, active_set_, parameters_.dt_s);
+  if (target_.has_targets) statistics_.add(kernels_[0], active_positions_, active_set_, parameters_.dt_s);
   statistics_.average(c_k_);
 
   out.has_metric = target_.has_targets && statistics_.has_samples();
@@ -282,12 +321,16 @@ void SwarmState::measure_coverage(Snapshot& out) noexcept {
   out.metric_percent = out.has_metric && first_metric_ > 0.0 ? 100.0 * out.metric / first_metric_ : 0.0;
 }
 
-void SwarmState::go_down_the_gradient() noexcept {
+void SwarmState::go_down_the_gradient(parallel::Workers* workers) noexcept {
   a_k_.array() = basis_.weight().array() * (c_k_ - target_.phi_k).array();  // lambda_k (c_k - phi_k)
-  slopes_.resize(active_.size());                                           // within its capacity
-  kernel_.gradient(active_positions_, a_k_, slopes_);                       // (7)
-  for (std::size_t i = 0; i < active_.size(); ++i)                          // (9)
-    active_u_[i] = ergodic::faded_direction(slopes_[i], parameters_.barrier.u_max_m_s, fade_delta_);
+  const auto steer = [&](std::size_t first, std::size_t last, std::size_t thread) {
+    std::array<Vec2, kPart> slopes;
+    const std::span<const Vec2> positions = std::span(active_positions_).subspan(first, last - first);
+    kernels_[thread].gradient(positions, a_k_, std::span(slopes).first(positions.size()));  // (7)
+    for (std::size_t i = first; i < last; ++i)                                              // (9)
+      active_u_[i] = ergodic::faded_direction(slopes[i - first], parameters_.barrier.u_max_m_s, fade_delta_);
+  };
+  parallel::for_each_part(workers, active_.size(), kPart, steer);
 }
 
 void SwarmState::look_ahead() noexcept {
@@ -297,27 +340,27 @@ void SwarmState::look_ahead() noexcept {
                                       .wall_distance_m = barrier.wall_distance_m + reserve_m,
                                       .no_fly_distance_m = safety::no_fly_radius(barrier, reserve_m),
                                       .no_fly = target_.no_fly};
-  look_ahead_.steer(kernel_, statistics_, target_.phi_k, region, departures_, active_u_);
+  look_ahead_.steer(kernels_[0], statistics_, target_.phi_k, region, departures_, active_u_);
 }
 
-void SwarmState::cover(Snapshot& out) noexcept {
-  std::fill(u_nom_.begin(), u_nom_.end(), Vec2::Zero());
+void SwarmState::cover(Snapshot& out, parallel::Workers* workers) noexcept {
   out.active = active_.size();
   out.idle = !target_.has_targets ? Idle::kNoTargets : active_.empty() ? Idle::kNoActiveDrone : Idle::kNone;
   measure_coverage(out);
   if (out.idle != Idle::kNone) return;
 
   active_u_.resize(active_.size());  // within its capacity
-  if (parameters_.controller == ergodic::ControllerKind::kGradient)
-    go_down_the_gradient();
-  else
+  if (looks_ahead(parameters_))
     look_ahead();
+  else
+    go_down_the_gradient(workers);
   for (std::size_t i = 0; i < active_.size(); ++i) u_nom_[active_[i]] = active_u_[i];
 }
 
 /// Whoever has a place to go to, whether or not anything is to be covered.
 void SwarmState::seek_goals() noexcept {
   travellers_.clear();
+  if (!is_any(&PartNote::has_traveller)) return;
   for (std::size_t index = 0; index < drones_.size(); ++index) {
     if (drones_[index].activity != Activity::kTravelling) continue;
     travellers_.push_back({.drone = index,
@@ -360,65 +403,80 @@ safety::Body SwarmState::body_of(std::size_t index) const noexcept {
   return body;
 }
 
-void SwarmState::keep_safe(Snapshot& out) noexcept {
-  for (std::size_t index = 0; index < drones_.size(); ++index) bodies_[index] = body_of(index);
-  filter_.run(bodies_, target_.no_fly, u_nom_, u_, reports_);
-  for (std::size_t index = 0; index < drones_.size(); ++index)
-    if (!is_steered(drones_[index].activity)) u_[index].setZero();
-  out.fallback = std::any_of(reports_.begin(), reports_.end(), [](const auto& report) { return report.fallback; });
+void SwarmState::keep_safe(parallel::Workers* workers) noexcept {
+  for_each_drone(workers, [&](std::size_t index, PartNote&) { bodies_[index] = body_of(index); });
+  filter_.run(bodies_, target_.no_fly, u_nom_, u_, reports_, workers);
+}
+
+void SwarmState::sort_air(parallel::Workers* workers) noexcept {
+  const auto place_in_air = [&](std::size_t index) {
+    const Vec2 nowhere = Vec2::Constant(std::numeric_limits<double>::quiet_NaN());
+    return is_airborne(drones_[index], parameters_.health) ? drones_[index].last_good.position : nowhere;
+  };
+  air_.sort(drones_.size(), place_in_air, workers);
 }
 
 bool SwarmState::has_clear_air(std::size_t index) const noexcept {
   constexpr double kRounding = 1e-6;  // those who clear the air come to rest on the boundary itself
   const double room = safety::barrier_radius(parameters_.barrier) - kRounding;
   const Vec2& place = drones_[index].last_good.position;
-  for (std::size_t other = 0; other < drones_.size(); ++other) {
-    const bool is_in_the_way = other != index && is_airborne(drones_[other], parameters_.health);
-    if (is_in_the_way && (drones_[other].last_good.position - place).norm() < room) return false;
-  }
-  return true;
+  if (!place.allFinite()) return true;
+  bool is_clear = true;
+  air_.visit_near(place, room, [&](std::size_t other) {
+    if (other != index && (drones_[other].last_good.position - place).norm() < room) is_clear = false;
+  });
+  return is_clear;
 }
 
-void SwarmState::write_orders(Snapshot& out) noexcept {
-  for (std::size_t index = 0; index < drones_.size(); ++index)
-    if (action_for(drones_[index]) != Action::kVelocity) u_[index].setZero();
+void SwarmState::write_order(std::size_t index, DroneSnapshot& to) noexcept {
+  const DroneMemory& drone = drones_[index];
+  Action action = action_for(drone);
+  if (action != Action::kVelocity || !is_steered(drone.activity)) u_[index].setZero();
+  if (action == Action::kTakeOff && !has_clear_air(index)) action = Action::kNone;
+  to.position = drone.last_good.position;
+  to.velocity = drone.last_good.velocity;
+  to.height_m = drone.last_good.height_m;
+  to.age_s = drone.last_good.age_s;
+  to.link_age_s = drone.last_good.link_age_s;
+  to.battery = drone.last_good.battery;
+  to.mode = drone.last_good.mode;
+  to.activity = drone.activity;
+  to.is_obstacle = bodies_[index].is_obstacle;
+  to.u_nom = u_nom_[index];
+  to.order.action = action;
+  to.order.velocity = u_[index];
+  to.filter = reports_[index];
+}
+
+void SwarmState::write_orders(Snapshot& out, parallel::Workers* workers) noexcept {
+  if (is_any(&PartNote::has_starter)) sort_air(workers);
+  for_each_drone(workers, [&](std::size_t index, PartNote& note) {
+    write_order(index, out.drones[index]);
+    note.has_fallback = note.has_fallback || reports_[index].fallback;
+  });
+  out.fallback = is_any(&PartNote::has_fallback);
   flown_.remember(u_);
-  for (std::size_t index = 0; index < drones_.size(); ++index) {
-    const DroneMemory& drone = drones_[index];
-    DroneSnapshot& to = out.drones[index];
-    to.position = drone.last_good.position;
-    to.velocity = drone.last_good.velocity;
-    to.height_m = drone.last_good.height_m;
-    to.age_s = drone.last_good.age_s;
-    to.link_age_s = drone.last_good.link_age_s;
-    to.battery = drone.last_good.battery;
-    to.mode = drone.last_good.mode;
-    to.activity = drone.activity;
-    to.is_obstacle = bodies_[index].is_obstacle;
-    to.u_nom = u_nom_[index];
-    to.order.action = action_for(drone);
-    if (to.order.action == Action::kTakeOff && !has_clear_air(index)) to.order.action = Action::kNone;
-    to.order.velocity = to.order.action == Action::kVelocity ? u_[index] : Vec2::Zero();
-    to.filter = reports_[index];
-  }
 }
 
 void tick(SwarmState& state, std::span<const DroneObservation> observations, std::span<const Command> commands,
-          Snapshot& out) noexcept {
+          Snapshot& out, parallel::Workers* workers) noexcept {
   assert(observations.size() == state.drones_.size() && out.drones.size() == state.drones_.size());
   out.tick = state.ticks_;
   out.time_s = static_cast<double>(state.ticks_) * state.parameters_.dt_s;
   out.events.clear();
   out.lost_events = 0;
-  state.remember_drones(observations);
-  state.take_commands(commands, out);
-  state.judge_drones(out);
-  state.predict_drones();
-  state.gather_active();
-  state.cover(out);
+  const bool is_told = !commands.empty();  // a wish is judged by the newest observation
+  if (is_told) {
+    for (std::size_t index = 0; index < observations.size(); ++index)
+      remember(state.drones_[index], observations[index], state.parameters_.dt_s);
+    state.take_commands(commands, out);
+  }
+  state.judge_drones(observations, is_told, out, workers);
+  state.gather_active(workers);
+  state.cover(out, workers);
   state.seek_goals();
-  state.keep_safe(out);
-  state.write_orders(out);
+  state.keep_safe(workers);
+  state.write_orders(out, workers);
   ++state.ticks_;
 }
 

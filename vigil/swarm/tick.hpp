@@ -8,6 +8,7 @@
 #include "vigil/core/ergodic/kernel.hpp"
 #include "vigil/core/ergodic/look_ahead.hpp"
 #include "vigil/core/guidance/goal_seeker.hpp"
+#include "vigil/core/parallel/workers.hpp"
 #include "vigil/core/safety/filter.hpp"
 #include "vigil/swarm/command.hpp"
 #include "vigil/swarm/flown_orders.hpp"
@@ -26,7 +27,7 @@ struct SwarmPast {
 };
 
 /// The whole controller between two ticks, as one value: copy it and run the copy ahead to look into the future. A copy
-/// may allocate in its first ticks.
+/// may allocate in its first ticks. It knows of no threads: whoever calls tick() brings workers or does without.
 class SwarmState {
  public:
   /// Precondition: parameters that mission checks accepted. Allocates all that ticks will ever need.
@@ -60,22 +61,38 @@ class SwarmState {
 
  private:
   friend void tick(SwarmState& state, std::span<const DroneObservation> observations, std::span<const Command> commands,
-                   Snapshot& out) noexcept;
+                   Snapshot& out, parallel::Workers* workers) noexcept;
+
+  /// What one part of the drones comes to.
+  struct alignas(64) PartNote {
+    std::size_t active = 0;        ///< how many
+    std::size_t first_active = 0;  ///< how many are before them
+    bool has_change = false;       ///< of an activity
+    bool has_traveller = false;
+    bool has_starter = false;  ///< wants to take off
+    bool has_fallback = false;
+  };
+  /// Calls body(index, note) for every drone, part by part.
+  template <typename Body>
+  void for_each_drone(parallel::Workers* workers, Body&& body) noexcept;
+  [[nodiscard]] bool is_any(bool PartNote::* what) const noexcept;
 
   void take_commands(std::span<const Command> commands, Snapshot& out) noexcept;
   void take_wish(const Command& command, Snapshot& out) noexcept;
   void set_target(const CoverageTarget& target) noexcept;
-  void remember_drones(std::span<const DroneObservation> observations) noexcept;
-  void judge_drones(Snapshot& out) noexcept;
-  void gather_active() noexcept;
-  void cover(Snapshot& out) noexcept;
+  void judge_drones(std::span<const DroneObservation> observations, bool are_remembered, Snapshot& out,
+                    parallel::Workers* workers) noexcept;
+  void predict(std::size_t index) noexcept;
+  void gather_active(parallel::Workers* workers) noexcept;
+  void cover(Snapshot& out, parallel::Workers* workers) noexcept;
   void measure_coverage(Snapshot& out) noexcept;
-  void go_down_the_gradient() noexcept;
+  void go_down_the_gradient(parallel::Workers* workers) noexcept;
   void look_ahead() noexcept;
   void seek_goals() noexcept;
-  void predict_drones() noexcept;
-  void keep_safe(Snapshot& out) noexcept;
-  void write_orders(Snapshot& out) noexcept;
+  void keep_safe(parallel::Workers* workers) noexcept;
+  void write_orders(Snapshot& out, parallel::Workers* workers) noexcept;
+  void write_order(std::size_t index, DroneSnapshot& to) noexcept;
+  void sort_air(parallel::Workers* workers) noexcept;
   /// Nobody flies so close above a grounded drone that it would come up into its way.
   [[nodiscard]] bool has_clear_air(std::size_t index) const noexcept;
   [[nodiscard]] safety::Body body_of(std::size_t index) const noexcept;
@@ -85,11 +102,12 @@ class SwarmState {
 
   SwarmParameters parameters_;
   ergodic::Basis basis_;
-  ergodic::Kernel kernel_;
+  std::vector<ergodic::Kernel> kernels_;  ///< one for each thread that may share a tick
   ergodic::CoverageStatistics statistics_;
   ergodic::LookAhead look_ahead_;
   guidance::GoalSeeker goal_seeker_;
   safety::Filter filter_;
+  safety::NeighbourGrid air_;  ///< where drones are in the air, of a tick in which somebody wants to take off
   FlownOrders flown_;
   CoverageTarget target_;
   double fade_delta_ = 0.0;
@@ -100,11 +118,12 @@ class SwarmState {
   std::vector<DroneMemory> drones_;
 
   // Work space of one tick.
-  std::vector<std::size_t> active_;
-  std::vector<std::size_t> active_before_;
+  std::vector<PartNote> notes_;
+  std::vector<Activity> activities_before_;
+  std::vector<std::uint32_t> active_;
+  std::vector<std::uint32_t> active_before_;
   std::vector<Vec2> active_positions_;
-  std::vector<ergodic::Departure> departures_;  ///< of the active drones
-  std::vector<Vec2> slopes_;
+  std::vector<ergodic::Departure> departures_;  ///< of the active drones; kLookAhead
   std::vector<Vec2> active_u_;
   std::vector<Motion> motions_;    ///< of all drones, as they will be when this tick's orders begin to act
   std::vector<double> seen_ages_;  ///< of all drones: their observations' ages in the last tick
@@ -123,8 +142,9 @@ class SwarmState {
 /// `out`. Pure: it depends on nothing but its arguments; it reads no clock, takes no lock, opens nothing, allocates
 /// nothing. The tick lasts parameters().dt_s. Precondition: as many observations, and drones in `out`, as drones;
 /// whatever is in the observations. A command for a drone that does not exist, or a target of the wrong shape, is
-/// refused with an event.
+/// refused with an event. With workers the drones are shared out among them, the same bits come out for any number of
+/// threads; fewer than some hundred drones are not worth it and stay with the caller.
 void tick(SwarmState& state, std::span<const DroneObservation> observations, std::span<const Command> commands,
-          Snapshot& out) noexcept;
+          Snapshot& out, parallel::Workers* workers = nullptr) noexcept;
 
 }  // namespace vigil::swarm
