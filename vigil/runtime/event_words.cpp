@@ -106,9 +106,13 @@ std::string refusal_words(std::string_view id, CommandKind wish, const swarm::Dr
       return fmt::format("{} is on the ground already", id);
     case CommandKind::kHold:
       if (is_down) return fmt::format("{} is on the ground; only a drone in the air holds", id);
+      if (drone.activity == Activity::kMarkedFailed)
+        return fmt::format("{} is marked as failed; resume it before it holds", id);
       return fmt::format("a pilot has {}; it must be given back first", id);
     case CommandKind::kGoTo:
       if (is_down) return fmt::format("{} is on the ground; only a drone in the air flies to a place", id);
+      if (drone.activity == Activity::kMarkedFailed)
+        return fmt::format("{} is marked as failed; resume it before it flies to a place", id);
       return fmt::format("{} cannot fly to a place now", id);
     case CommandKind::kResume:
       return fmt::format("{} is neither held, nor at a place, nor marked as failed", id);

@@ -23,6 +23,12 @@ FreePlaces reachable_places(const Mission& mission) {
   return {mission, barrier.wall_distance_m + reserve_m + more_m, safety::no_fly_radius(barrier, reserve_m) + more_m};
 }
 
+/// Whether nobody else has said what it is to do: an operator who holds it, or lands it, is obeyed.
+bool may_be_sent(swarm::Activity activity) {
+  using swarm::Activity;
+  return activity == Activity::kActive || activity == Activity::kTravelling || activity == Activity::kRecovering;
+}
+
 }  // namespace
 
 GoalScript::GoalScript(const Mission& mission)
@@ -75,8 +81,7 @@ void GoalScript::draw_apart(const Mission& mission) {
 
 void GoalScript::play(const swarm::Snapshot& last, std::vector<swarm::Command>& commands) const {
   for (std::size_t i = 0; i < goals_.size(); ++i) {
-    const bool is_seen = last.drones[i].activity != swarm::Activity::kNeverSeen;
-    if (is_pending_[i] != 0 && is_seen)
+    if (is_pending_[i] != 0 && may_be_sent(last.drones[i].activity))
       commands.push_back(
           {.kind = swarm::CommandKind::kGoTo, .drone = swarm::DroneId(i), .place = goals_[i], .target = {}});
   }

@@ -26,8 +26,8 @@ class GoalScript {
   /// goals of kPlaces is found.
   explicit GoalScript(const Mission& mission);
 
-  /// The commands that are due. `last`: of the tick before, empty before the first; a goal is given anew until the
-  /// controller has accepted it. Adds to `commands`.
+  /// The commands that are due, to drones that cover, travel or recover. `last`: of the tick before, empty before the
+  /// first; a goal is given anew until the controller has accepted it. Adds to `commands`.
   void play(const swarm::Snapshot& last, std::vector<swarm::Command>& commands) const;
 
   /// Where the drones really are at time_s: counts who has reached its goal, and draws new ones for kErrands.

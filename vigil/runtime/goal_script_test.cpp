@@ -20,7 +20,7 @@ Mission with_goals(GoalPattern pattern) {
 struct Watched {
   explicit Watched(const Mission& mission)
       : script(mission), snapshot(mission.drones.size()), truth(mission.drones.size()) {
-    for (swarm::DroneSnapshot& drone : snapshot.drones) drone.activity = swarm::Activity::kHeld;
+    for (swarm::DroneSnapshot& drone : snapshot.drones) drone.activity = swarm::Activity::kActive;
   }
   /// What a tick does with the commands that are due: it accepts them.
   std::size_t accept() {
@@ -45,10 +45,19 @@ TEST(GoalScript, Each_drone_is_sent_once_as_soon_as_it_has_been_seen) {
   flight.snapshot.drones[3].activity = swarm::Activity::kNeverSeen;
   EXPECT_EQ(flight.accept(), 49U);
   flight.script.watch(flight.truth, flight.snapshot, 0.0);
-  flight.snapshot.drones[3].activity = swarm::Activity::kHeld;
+  flight.snapshot.drones[3].activity = swarm::Activity::kActive;
   EXPECT_EQ(flight.accept(), 1U);
   flight.script.watch(flight.truth, flight.snapshot, 0.02);
   EXPECT_EQ(flight.accept(), 0U);
+}
+
+TEST(GoalScript, A_drone_that_is_held_or_down_is_left_alone) {
+  using swarm::Activity;
+  Watched flight(with_goals(GoalPattern::kPlaces));
+  const std::vector others{Activity::kHeld, Activity::kGrounded, Activity::kLanding, Activity::kEmergencyStop,
+                           Activity::kMarkedFailed};
+  for (std::size_t i = 0; i < others.size(); ++i) flight.snapshot.drones[i].activity = others[i];
+  EXPECT_EQ(flight.accept(), 45U);
 }
 
 TEST(GoalScript, Errands_never_end_and_every_one_counts) {

@@ -95,7 +95,7 @@ bool apply_wish(DroneMemory& memory, CommandKind wish, const Vec2& place) noexce
     case CommandKind::kLand:
       return set_if(airborne, Intent::kLand);
     case CommandKind::kHold:
-      return set_if(airborne && intent != Intent::kOverride, Intent::kHold);
+      return set_if(airborne && intent != Intent::kOverride && intent != Intent::kMarkedFailed, Intent::kHold);
     case CommandKind::kGoTo:
       if (!airborne || intent == Intent::kOverride || intent == Intent::kMarkedFailed) return false;
       memory.place = place;

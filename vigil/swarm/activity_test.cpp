@@ -199,6 +199,8 @@ TEST(Activity, Held_overridden_and_marked_failed_drones_come_back_when_told) {
   ASSERT_TRUE(apply_wish(memory, CommandKind::kMarkFailed));
   EXPECT_EQ(judged(memory, seen()), Activity::kMarkedFailed);
   EXPECT_EQ(action_for(memory), Action::kNone);
+  EXPECT_FALSE(apply_wish(memory, CommandKind::kHold));
+  EXPECT_FALSE(apply_wish(memory, CommandKind::kGoTo));
   ASSERT_TRUE(apply_wish(memory, CommandKind::kResume));
   EXPECT_EQ(judged(memory, seen()), Activity::kActive);
 }

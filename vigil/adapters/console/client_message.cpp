@@ -70,6 +70,13 @@ Confirm confirm_in(const JsonReader& reader) {
   return {reader.whole("received")};
 }
 
+SeenFlight seen_in(const JsonReader& reader) {
+  SeenFlight seen;
+  if (reader.has("run")) seen.run = reader.text("run", kMostIdBytes);
+  if (reader.has("epoch")) seen.epoch = reader.whole("epoch");
+  return seen;
+}
+
 DroneWish wish_in(const JsonReader& reader, std::string_view type, CommandKind kind) {
   DroneWish wish{kind, false, {}, {}, {}};
   if (type == "go_to") {
@@ -78,8 +85,7 @@ DroneWish wish_in(const JsonReader& reader, std::string_view type, CommandKind k
   } else {
     reader.allow_only({"type", "id", "run", "epoch", "drones"});
   }
-  if (reader.has("run")) wish.seen.run = reader.text("run", kMostIdBytes);
-  if (reader.has("epoch")) wish.seen.epoch = reader.whole("epoch");
+  wish.seen = seen_in(reader);
   if (!reader.is_text("drones")) {
     wish.drones = reader.texts("drones", kMostDrones, kMostIdBytes);
     if (wish.drones.empty()) reader.refuse("drones", "must name at least one drone");
@@ -100,10 +106,14 @@ Editing editing_in(const JsonReader& reader) {
   return editing;
 }
 
-template <typename Body>
-Body draft_in(const JsonReader& reader) {
+PreviewDensity preview_density_in(const JsonReader& reader) {
   reader.allow_only({"type", "id", "based_on", "edits"});
   return {reader.whole("based_on"), edits_in(reader, "edits")};
+}
+
+Edit edit_in(const JsonReader& reader) {
+  reader.allow_only({"type", "id", "run", "epoch", "based_on", "edits"});
+  return {reader.whole("based_on"), edits_in(reader, "edits"), seen_in(reader)};
 }
 
 Preview preview_in(const JsonReader& reader) {
@@ -152,8 +162,8 @@ StepTicks step_in(const JsonReader& reader) {
 
 template <typename Body>
 Body step_back_in(const JsonReader& reader) {
-  reader.allow_only({"type", "id", "based_on"});
-  return {reader.whole("based_on")};
+  reader.allow_only({"type", "id", "run", "epoch", "based_on"});
+  return {reader.whole("based_on"), seen_in(reader)};
 }
 
 template <typename Body>
@@ -168,11 +178,11 @@ std::optional<MessageBody> body_in(const JsonReader& reader, std::string_view ty
   if (type == "hello") return hello_in(reader);
   if (type == "confirm") return confirm_in(reader);
   if (type == "ping") return nothing_in<Ping>(reader);
-  if (type == "preview_density") return draft_in<PreviewDensity>(reader);
+  if (type == "preview_density") return preview_density_in(reader);
   if (type == "preview") return preview_in(reader);
   if (type == "why") return why_in(reader);
   if (type == "editing") return editing_in(reader);
-  if (type == "edit") return draft_in<Edit>(reader);
+  if (type == "edit") return edit_in(reader);
   if (type == "undo") return step_back_in<Undo>(reader);
   if (type == "redo") return step_back_in<Redo>(reader);
   if (type == "start_afresh") return nothing_in<StartAfresh>(reader);

@@ -64,12 +64,15 @@ struct DroneWish {
 struct Edit {
   std::uint64_t based_on = 0;
   std::vector<runtime::TargetEdit> edits;
+  SeenFlight seen;
 };
 struct Undo {
   std::uint64_t based_on = 0;
+  SeenFlight seen;
 };
 struct Redo {
   std::uint64_t based_on = 0;
+  SeenFlight seen;
 };
 struct StartAfresh {};
 struct SetSpeed {

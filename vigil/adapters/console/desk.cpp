@@ -105,6 +105,12 @@ void Desk::finish_change(std::uint64_t ticket, const std::optional<runtime::Refu
   retarget(ticket);
 }
 
+bool Desk::still_flies(std::uint32_t epoch, std::uint64_t ticket) {
+  if (epoch == epoch_) return true;
+  refuse(ticket, "stale", "another flight has begun since; look at its targets");
+  return false;
+}
+
 void Desk::edit(std::uint64_t ticket, const std::vector<runtime::TargetEdit>& edits, std::uint64_t based_on,
                 const std::string& by) {
   finish_change(ticket, desk_->edit(edits, based_on, by));

@@ -120,6 +120,8 @@ class Desk {
   /// Flies a mission: tells FlightNews and TargetsNews. Throws what making a flight throws.
   void begin(const runtime::Mission& mission, const runtime::SavedFlight* saved);
 
+  /// Whether the flight of this epoch is still the one that is flown; where it is not, the ticket is refused.
+  [[nodiscard]] bool still_flies(std::uint32_t epoch, std::uint64_t ticket);
   void edit(std::uint64_t ticket, const std::vector<runtime::TargetEdit>& edits, std::uint64_t based_on,
             const std::string& by);
   void undo(std::uint64_t ticket, std::uint64_t based_on, const std::string& by);

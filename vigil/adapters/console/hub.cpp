@@ -51,6 +51,14 @@ std::string_view unfit(const MessageBody& body, const runtime::ShownFlight& flig
   return {};
 }
 
+std::string in_words(const std::vector<std::string>& drones) {
+  constexpr std::size_t kMostNamed = 8;
+  const std::size_t named = std::min(drones.size(), kMostNamed);
+  const auto end = drones.begin() + static_cast<std::ptrdiff_t>(named);
+  const std::string names = fmt::format("{}", fmt::join(drones.begin(), end, ", "));
+  return named == drones.size() ? names : fmt::format("{} and {} more", names, drones.size() - named);
+}
+
 std::string name_or(const std::string& name, std::uint32_t client) {
   return name.empty() ? fmt::format("operator {}", client) : name;
 }
@@ -220,7 +228,7 @@ void Hub::execute(const ClientMessage& message, const Author& author, Reply repl
   if (std::holds_alternative<Ping>(message.body)) return reply(pong_json(id, links_.wall_ms(), steady_ms()));
   if (const auto* editing = std::get_if<Editing>(&message.body)) {
     set_editing(author.client, *editing);
-    return reply(ack_json(id, {frame_ ? frame_->snapshot.tick : 0, false, {}, {}}));
+    return reply(ack_json(id, {.tick = frame_ ? frame_->snapshot.tick : 0}));
   }
   if (!flight_) return reply(refused_json({id, "not_now", "no mission is being flown yet"}));
   if (const std::string_view reason = unfit(message.body, *flight_); !reason.empty())
@@ -239,10 +247,7 @@ std::uint64_t Hub::expect(const ClientMessage& message, const Author& author, Re
   waiting.reply = std::move(reply);
   if (std::holds_alternative<PreviewDensity>(message.body)) waiting.preview_for = author.client;
   if (const auto* wish = std::get_if<DroneWish>(&message.body))
-    waiting.drones = wish->all
-                         ? "all"
-                         : fmt::format("{}", fmt::join(wish->drones.begin(),
-                                                       std::min(wish->drones.begin() + 8, wish->drones.end()), ", "));
+    waiting.drones = wish->all ? "all" : in_words(wish->drones);
   waiting_.emplace(ticket, std::move(waiting));
   return ticket;
 }
@@ -262,13 +267,18 @@ void Hub::dispatch(const ClientMessage& message, const Author& author, std::uint
   std::visit(Overloaded{
                  [&](const DroneWish& body) { wish(body, ticket); },
                  [&](const Edit& body) {
-                   ask_desk(ticket, [=](Desk& desk) { desk.edit(ticket, body.edits, body.based_on, by); });
+                   change_targets(body.seen, ticket,
+                                  [=](Desk& desk) { desk.edit(ticket, body.edits, body.based_on, by); });
                  },
                  [&](const PreviewDensity& body) { preview(body, author, message.id.value_or(0), ticket); },
                  [&](const Preview& body) { look_ahead(body, author, ticket); },
                  [&](const Why& body) { explain(body, author, ticket); },
-                 [&](const Undo& body) { ask_desk(ticket, [=](Desk& desk) { desk.undo(ticket, body.based_on, by); }); },
-                 [&](const Redo& body) { ask_desk(ticket, [=](Desk& desk) { desk.redo(ticket, body.based_on, by); }); },
+                 [&](const Undo& body) {
+                   change_targets(body.seen, ticket, [=](Desk& desk) { desk.undo(ticket, body.based_on, by); });
+                 },
+                 [&](const Redo& body) {
+                   change_targets(body.seen, ticket, [=](Desk& desk) { desk.redo(ticket, body.based_on, by); });
+                 },
                  [&](const LoadMission& body) {
                    ask_desk(ticket, [ticket, yaml = body.yaml](Desk& desk) { desk.load_mission(ticket, yaml); });
                  },
@@ -330,6 +340,11 @@ bool Hub::is_of_this_flight(const SeenFlight& seen) const {
   return seen.run.value_or(setup_.run) == setup_.run && seen.epoch.value_or(flight_->epoch()) == flight_->epoch();
 }
 
+/// To take a mark back is a decision about one drone: to resume all does not.
+bool Hub::is_marked_failed(std::size_t drone) const {
+  return frame_ && frame_->snapshot.drones[drone].activity == swarm::Activity::kMarkedFailed;
+}
+
 /// All motors stop whichever flight somebody was looking at; all else could reach a drone that only has the name of
 /// another.
 void Hub::wish(const DroneWish& wish, std::uint64_t ticket) {
@@ -343,6 +358,7 @@ void Hub::wish(const DroneWish& wish, std::uint64_t ticket) {
   const field::WorldFrame world = runtime::world_frame(mission);
   std::vector<runtime::LiveCommand> commands;
   for (const std::size_t drone : *drones) {
+    if (wish.all && wish.kind == swarm::CommandKind::kResume && is_marked_failed(drone)) continue;
     runtime::LiveCommand command;
     command.swarm.kind = wish.kind;
     command.swarm.drone = swarm::DroneId(drone);
@@ -352,6 +368,7 @@ void Hub::wish(const DroneWish& wish, std::uint64_t ticket) {
     if (wish.kind == swarm::CommandKind::kGoTo) command.swarm.place = field.clamp(place);
     commands.push_back(command);
   }
+  if (commands.empty()) return refuse(ticket, "not_now", "all drones are marked as failed; resume them by their names");
   GivenOrder given{ticket, {}};
   for (const runtime::LiveCommand& command : commands) given.commands.push_back(command.swarm);
   submit(std::move(commands), ticket);
@@ -389,6 +406,15 @@ void Hub::wait_for_control(Waiting& waiting) const {
 void Hub::ask_desk(std::uint64_t ticket, std::function<void(Desk&)> task) {
   waiting_.at(ticket).wants_revision = true;
   if (!links_.at_desk(std::move(task))) refuse(ticket, "busy", "too many changes wait; try again");
+}
+
+/// Revisions begin anew with each mission: a change is made to targets of the flight that it was meant for, or not at
+/// all, also where another one begins before the desk comes to it.
+void Hub::change_targets(const SeenFlight& seen, std::uint64_t ticket, std::function<void(Desk&)> change) {
+  if (!is_of_this_flight(seen)) return refuse(ticket, "stale", "another flight has begun since; look at its targets");
+  ask_desk(ticket, [epoch = flight_->epoch(), ticket, change = std::move(change)](Desk& desk) {
+    if (desk.still_flies(epoch, ticket)) change(desk);
+  });
 }
 
 void Hub::preview(const PreviewDensity& body, const Author& author, std::uint64_t request, std::uint64_t ticket) {

@@ -160,6 +160,8 @@ class Hub {
   void keep_orders();
   void ask_desk(std::uint64_t ticket, std::function<void(Desk&)> task);
   void refuse(std::uint64_t ticket, std::string_view code, std::string reason);
+  [[nodiscard]] bool is_marked_failed(std::size_t drone) const;
+  void change_targets(const SeenFlight& seen, std::uint64_t ticket, std::function<void(Desk&)> change);
   void preview(const PreviewDensity& body, const Author& author, std::uint64_t request, std::uint64_t ticket);
   void look_ahead(const Preview& body, const Author& author, std::uint64_t ticket);
   void explain(const Why& body, const Author& author, std::uint64_t ticket);

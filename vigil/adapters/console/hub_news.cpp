@@ -211,6 +211,7 @@ void Hub::take(const PreviewNews& news) {
 
 void Hub::log(ConsoleEvent event) {
   event.number = next_event_++;
+  if (flight_) event.epoch = flight_->epoch();
   event.wall_ms = links_.wall_ms();
   if (event.tick == 0 && frame_) event.tick = frame_->snapshot.tick;
   if (event.time_s == 0.0 && frame_) event.time_s = frame_->snapshot.time_s;
@@ -309,9 +310,10 @@ void Hub::hear_answer(const LiveEvent& event) {
     return;
   }
   if (!is_pending_answered) {
-    Answer answer{event.tick, false, {}, {}};
+    Answer answer{.tick = event.tick};
     if (waiting.wants_revision) answer.revision = event.revision;
-    if (waiting.drones != "all") answer.refused_drones = std::move(waiting.refused);
+    answer.refused_drones = std::move(waiting.refused);
+    answer.refused_count = event.refused;
     waiting.reply(ack_json(waiting.id, answer));
   }
   if (waiting.what == "resume" || waiting.what == "take_off") waits_for_resume_ = false;

@@ -213,7 +213,23 @@ TEST(HubTest, Who_of_several_drones_cannot_follow_is_named_and_the_others_follow
   EXPECT_EQ(both.at("refused_drones").at(0).at("drone"), "a");
   EXPECT_NE(std::string(both.at("refused_drones").at(0).at("reason")).find("on the ground"), std::string::npos);
   EXPECT_EQ(console.ask(ana, hold(3, {"a"})).at("code"), "not_now");
-  EXPECT_EQ(console.ask(ana, hold(4, "all")).at("type"), "ack");
+  const Json all = console.ask(ana, hold(4, "all"));
+  EXPECT_EQ(all.at("type"), "ack");
+  EXPECT_EQ(all.at("refused_count"), 1);
+  EXPECT_EQ(all.at("refused_drones").at(0).at("drone"), "a");
+}
+
+TEST(HubTest, To_hold_or_resume_all_leaves_a_drone_marked_failed) {
+  ConsoleForTests console;
+  console.fly();
+  const Visitor ana = console.join();
+  console.ask(ana, {{"type", "mark_failed"}, {"id", 1}, {"drones", {"b"}}});
+  EXPECT_EQ(console.ask(ana, hold(2, "all")).at("refused_count"), 1);
+  EXPECT_EQ(console.ask(ana, {{"type", "resume"}, {"id", 3}, {"drones", "all"}}).at("type"), "ack");
+  EXPECT_EQ(console.newest().snapshot.drones[1].activity, swarm::Activity::kMarkedFailed);
+  EXPECT_EQ(console.newest().snapshot.drones[0].activity, swarm::Activity::kActive);
+  EXPECT_EQ(console.ask(ana, {{"type", "resume"}, {"id", 4}, {"drones", {"b"}}}).at("type"), "ack");
+  EXPECT_NE(console.newest().snapshot.drones[1].activity, swarm::Activity::kMarkedFailed);
 }
 
 TEST(HubTest, An_event_counts_the_drones_that_cover_after_it) {

@@ -57,6 +57,15 @@ TEST(Restart, An_order_for_another_flight_is_refused_but_landing_or_stopping_all
   EXPECT_EQ(answer(of({{"type", "emergency_stop"}, {"drones", {"b"}}}, "another run", 7)), "stale");
   EXPECT_EQ(answer({{"type", "land_all"}}), "ack");
   EXPECT_EQ(answer(of({{"type", "emergency_stop"}, {"drones", "all"}}, "another run", 7)), "ack");
+
+  Json floor{{"type", "edit"}, {"based_on", 1}};
+  floor["edits"] = Json::array({{{"op", "set_uniform_floor"}, {"uniform_floor", 0.5}}});
+  EXPECT_EQ(answer(of(floor, "this run", 2)), "stale");
+  EXPECT_EQ(answer(of(floor, "another run", 1)), "stale");
+  EXPECT_EQ(answer(of(floor, "this run", 1)), "ack");
+  const Json undo{{"type", "undo"}, {"based_on", 2}};
+  EXPECT_EQ(answer(of(undo, "another run", 1)), "stale");
+  EXPECT_EQ(answer(of(undo, "this run", 1)), "ack");
 }
 
 class KeptFlightTest : public ::testing::Test {

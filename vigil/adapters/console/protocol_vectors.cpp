@@ -240,6 +240,10 @@ const std::vector<std::pair<std::string, std::string>>& client_texts() {
        R"({"type":"land","id":23,"run":"5f1c09d2a7b34e68","epoch":3,"drones":["a","b"]})"},
       {"undo", R"({"type":"undo","id":24,"based_on":7})"},
       {"redo", R"({"type":"redo","id":25,"based_on":8})"},
+      {"undo of the flight that was seen",
+       R"({"type":"undo","id":30,"run":"5f1c09d2a7b34e68","epoch":3,"based_on":7})"},
+      {"edit of the flight that was seen",
+       R"({"type":"edit","id":31,"run":"5f1c09d2a7b34e68","epoch":3,"based_on":7,"edits":[{"op":"set_uniform_floor","uniform_floor":0}]})"},
       {"take off all", R"({"type":"take_off","id":3,"drones":"all"})"},
       {"land all", R"({"type":"land_all","id":4})"},
       {"emergency stop", R"({"type":"emergency_stop","id":5,"drones":"all"})"},
@@ -407,7 +411,7 @@ Json server_messages() {
   add("presence", presence_json({ana}));
   add("ack", ack_json(7, {1151, false, {}, {}}));
   add("ack of an edit", ack_json(8, {1151, true, 8, {}}));
-  add("ack of some", ack_json(9, {1151, false, {}, {{"b", "b is on the ground already"}}}));
+  add("ack of some", ack_json(9, {1151, false, {}, {{"b", "b is on the ground already"}}, 1}));
   add("refused", refused_json({10, "stale", "Ben changed it"}));
   add("refused, no id", refused_json({{}, "malformed", "it is not JSON in UTF-8"}));
   add("pong", pong_json(11, 1024.5, 2048.25));

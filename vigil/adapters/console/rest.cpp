@@ -159,7 +159,7 @@ void Rest::import_areas(const HttpRequest& request, Role role, const Reply& repl
   std::variant<std::vector<runtime::TargetEdit>, std::string> edits = edits_of_geojson(request.body, *hub_.mission());
   if (const auto* problem = std::get_if<std::string>(&edits)) return reply(refusal(400, "invalid", *problem));
   const ClientMessage message{0, "edit",
-                              Edit{hub_.revision(), std::move(std::get<std::vector<runtime::TargetEdit>>(edits))}};
+                              Edit{hub_.revision(), std::move(std::get<std::vector<runtime::TargetEdit>>(edits)), {}}};
   hub_.command(message, role, std::string(kRestName),
                [reply](const Json& json) { reply(json_answer(status_of(json), json)); });
 }

@@ -91,6 +91,7 @@ Json targets_json(const runtime::MissionDesk& desk, std::uint32_t epoch) {
 
 Json event_json(const ConsoleEvent& event) {
   return {{"number", event.number},
+          {"epoch", event.epoch},
           {"tick", event.tick},
           {"time_s", event.time_s},
           {"wall_ms", event.wall_ms},
@@ -153,6 +154,7 @@ Json ack_json(std::uint64_t id, const Answer& answer) {
   Json refused = Json::array();
   for (const auto& [drone, reason] : answer.refused_drones) refused.push_back({{"drone", drone}, {"reason", reason}});
   json["refused_drones"] = std::move(refused);
+  json["refused_count"] = answer.refused_count;
   return json;
 }
 

@@ -22,6 +22,7 @@ inline constexpr double kMostSpeed = 20.0;
 /// What stands in the log of events.
 struct ConsoleEvent {
   std::uint64_t number = 0;
+  std::uint32_t epoch = 0;  ///< of the flight in which it happened
   std::uint64_t tick = 0;
   double time_s = 0.0;
   double wall_ms = 0.0;
@@ -81,8 +82,9 @@ struct StatusContext {
 struct Answer {
   std::uint64_t tick = 0;
   bool is_pending = false;
-  std::optional<std::uint64_t> revision;
-  std::vector<std::pair<std::string, std::string>> refused_drones;  ///< id, reason
+  std::optional<std::uint64_t> revision{};
+  std::vector<std::pair<std::string, std::string>> refused_drones{};  ///< id, reason: of the first
+  std::size_t refused_count = 0;                                      ///< of all that could not follow
 };
 
 using Json = nlohmann::ordered_json;
