@@ -241,10 +241,12 @@ void Filter::add_pairs(std::size_t own, const Body& body, const Vec2& z, FilterR
     desk.nearest_m = is_nearest ? distance : desk.nearest_m;
     report.nearest = is_nearest ? index : report.nearest;
     const bool is_coincident = batch.lever[i] <= pair_formula::kCoincident;
-    const Vec2 normal =
-        is_coincident ? parting_direction(static_cast<int>(own), index) : Vec2(batch.normal_x[i], batch.normal_y[i]);
+    const Vec2 parting = parting_direction(static_cast<int>(own), index);
+    const double normal_x = is_coincident ? parting.x() : batch.normal_x[i];
+    const double normal_y = is_coincident ? parting.y() : batch.normal_y[i];
     const bool is_binding = batch.offset[i] > -parameters_.u_max_m_s;
-    desk.rows.add_if(is_binding, {normal, batch.offset[i], Priority::kDoubt}, {RowKind::kNeighbour, index, distance});
+    desk.rows.add_neighbour_if(is_binding, {Vec2(normal_x, normal_y), batch.offset[i], Priority::kDoubt}, index,
+                               distance);
   }
   desk.gathered = 0;
 }

@@ -37,15 +37,23 @@ class RowSet {
     whats_[count_] = what;
     if (++count_ == kMaxRows) heap_up();
   }
-  /// The same where `is_wanted`; without a branch while there is room, for whoever cannot foresee which rows bind.
-  void add_if(bool is_wanted, const HalfPlane& half_plane, const HoldingRow& what) noexcept {
-    if (count_ + 1 < kMaxRows) {
-      half_planes_[count_] = half_plane;
-      whats_[count_] = what;
-      count_ += is_wanted ? 1 : 0;
-    } else if (is_wanted) {
-      add(half_plane, what);
+  /// The row of a neighbour, where `is_wanted`. Number by number and, while there is room, without a branch: many are
+  /// added, nobody can foresee which bind, and what was just written in parts is slow to read as a whole.
+  void add_neighbour_if(bool is_wanted, const HalfPlane& half_plane, int index, double distance_m) noexcept {
+    if (count_ + 1 >= kMaxRows) {
+      if (is_wanted) add(half_plane, {RowKind::kNeighbour, index, distance_m});
+      return;
     }
+    HalfPlane& row = half_planes_[count_];
+    row.normal.x() = half_plane.normal.x();
+    row.normal.y() = half_plane.normal.y();
+    row.offset = half_plane.offset;
+    row.priority = half_plane.priority;
+    HoldingRow& what = whats_[count_];
+    what.kind = RowKind::kNeighbour;
+    what.index = index;
+    what.distance_m = distance_m;
+    count_ += is_wanted ? 1 : 0;
   }
 
   [[nodiscard]] std::span<const HalfPlane> half_planes() const { return std::span(half_planes_).first(count_); }
