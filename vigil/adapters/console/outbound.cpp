@@ -37,7 +37,7 @@ std::optional<Outbound::Message> Outbound::next(Time now) {
     if (pace_) pace_->sent(text->size(), false, now);
     return Message{std::move(text), true};
   }
-  if (!was_snapshot_ && may_send(kSnapshot)) return next_of(kSnapshot, now);
+  if (ahead_ <= 0 && may_send(kSnapshot)) return next_of(kSnapshot, now);
   for (std::size_t n = 1; n <= kKinds; ++n) {
     const std::size_t kind = (turn_ + n) % kKinds;
     // What has its turn and no room waits for it: smaller ones would take it away for ever.
@@ -56,9 +56,17 @@ bool Outbound::may_send(std::size_t kind) const {
 std::optional<Outbound::Message> Outbound::next_of(std::size_t kind, Time now) {
   std::optional<Message> message = pace_ ? part_of(kind, now) : whole_of(kind);
   if (!message) return std::nullopt;
-  was_snapshot_ = kind == kSnapshot;
-  if (!was_snapshot_) turn_ = kind;
+  count(kind, message->bytes->size());
+  if (kind != kSnapshot) turn_ = kind;
   return message;
+}
+
+/// Of a way that is full three quarters are the snapshots': the past may take its time, the present may not.
+void Outbound::count(std::size_t kind, std::size_t bytes) {
+  constexpr std::int64_t kOthersWeigh = 3;
+  constexpr std::int64_t kFurthest = 32'768;  // who had nothing to send for long gets no more than that at once
+  const auto size = static_cast<std::int64_t>(bytes);
+  ahead_ = std::clamp(ahead_ + (kind == kSnapshot ? size : -kOthersWeigh * size), -kFurthest, kFurthest);
 }
 
 std::optional<Outbound::Message> Outbound::whole_of(std::size_t kind) {

@@ -55,13 +55,15 @@ class Outbound {
   [[nodiscard]] std::optional<Message> next_of(std::size_t kind, Time now);
   [[nodiscard]] std::optional<Message> whole_of(std::size_t kind);
   [[nodiscard]] std::optional<Message> part_of(std::size_t kind, Time now);
+  void count(std::size_t kind, std::size_t bytes);
 
   std::optional<Pace> pace_;
   std::deque<SharedBytes> said_;
   std::size_t said_bytes_ = 0;
   std::array<Shown, kKinds> shown_;
   std::size_t turn_ = 0;  ///< the kind that was sent last of those that are no snapshot
-  bool was_snapshot_ = false;
+  /// Bytes of snapshots that the other frames have not made up for yet, at their share; the turn is theirs while > 0.
+  std::int64_t ahead_ = 0;
 };
 
 }  // namespace vigil::console

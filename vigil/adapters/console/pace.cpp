@@ -13,8 +13,9 @@ bool Pace::admits(std::size_t bytes) noexcept {
 std::size_t Pace::part_bytes(std::size_t whole) const noexcept {
   if (whole <= window_) return std::max<std::size_t>(whole, 1);
   constexpr std::size_t kLeastPart = 1024;
-  constexpr std::size_t kMostParts = 32;  // a window that a busy page keeps small must not make a picture of crumbs
-  return std::max({kLeastPart, window_ / 4, whole / kMostParts});
+  constexpr std::size_t kMostParts = 32;  // a window that a busy page keeps small must not make a picture of crumbs,
+  constexpr std::size_t kMostBytesOfThose = std::size_t{4} << 10U;  // nor the past of a large swarm fill a slow way
+  return std::max({kLeastPart, window_ / 4, std::min(whole / kMostParts, kMostBytesOfThose)});
 }
 
 void Pace::sent(std::size_t bytes, bool ends_snapshot, Time now) {

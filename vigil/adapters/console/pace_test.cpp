@@ -106,6 +106,27 @@ TEST(PaceTest, Over_a_slow_way_with_endless_buffers_snapshots_arrive_young_and_t
   EXPECT_GT(show.count['p'], 60U);  // the age map, in parts
 }
 
+TEST(PaceTest, The_past_of_a_large_swarm_leaves_most_of_a_slow_way_to_its_present) {
+  Show show(SlowWay(25'000.0, 20ms), 65'000);
+  show.outbound.show(Latest::kTrails, Show::stamped('t', show.now, 3'200'000));
+  std::map<int, std::size_t> bytes_of;
+  Time longest_gap{0};
+  for (Time last{0}; show.now < 60s; show.now += 5ms) {
+    if (show.now % 50ms == 0ms) show.outbound.show(Latest::kSnapshot, Show::stamped('s', show.now, 65'000));
+    show.way.confirm(show.outbound, show.now);
+    while (const auto message = show.outbound.next(show.now)) show.way.send(*message, show.now);
+    for (const auto& [came_at, bytes] : show.way.read(show.now)) {
+      bytes_of[bytes->at(5)] += bytes->size();
+      longest_gap = std::max(longest_gap, show.now - std::exchange(last, show.now));
+    }
+  }
+  const auto snapshots = bytes_of[static_cast<int>(Latest::kSnapshot)];
+  const auto trails = bytes_of[static_cast<int>(Latest::kTrails)];
+  EXPECT_GT(snapshots, 2 * trails);
+  EXPECT_GT(trails, 200'000U);
+  EXPECT_LT(longest_gap, 400ms);  // no part is so long that an answer would wait behind it
+}
+
 TEST(PaceTest, What_is_said_over_a_slow_way_is_not_stuck_behind_frames) {
   Show show(SlowWay(25'000.0, 20ms));
   show.pass(5s);
