@@ -12,9 +12,13 @@ export class FakeProgram {
   /** Takes connections but says nothing. */
   isMute = false;
   missionName = 'played';
+  /** Another one is another run of the program. */
+  run = '1f';
   idOf = (drone: number): string => `d${drone + 1}`;
   /** Of the field, in the world, m. */
   origin: readonly [number, number] = [0, 0];
+  /** Attention that is spread evenly; with 0 and no targets nothing is watched. */
+  uniformFloor = 0.5;
   greetings = 0;
   drones: DroneState[];
   holding: Holding[] = [];
@@ -164,7 +168,7 @@ export class FakeProgram {
       clusters: [],
       areas: [],
       no_fly: [],
-      uniform_floor: 0.5, // prettier-ignore
+      uniform_floor: this.uniformFloor, // prettier-ignore
     };
   }
 
@@ -180,7 +184,7 @@ export class FakeProgram {
       role: 'safety_pilot',
       roles: ['viewer', 'operator', 'safety_pilot'],
       login: false,
-      run: '1f',
+      run: this.run,
       steady_ms: performance.now(),
     });
     this.say({

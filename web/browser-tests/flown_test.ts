@@ -289,6 +289,7 @@ describe('the connection', () => {
     program = await serve('paper.yaml', [], port);
     await page.getByTestId('badge').getByText('SIM').waitFor();
     await page.getByTestId('disconnected').waitFor({ state: 'detached' });
+    await page.getByTestId('notices').getByText('The program was restarted').waitFor();
   });
 
   it('Two operators see each other’s edits at once, and who edits what', async () => {

@@ -317,6 +317,7 @@ const acknowledged = ({ id, tick }: { id: number; tick: number }, revision: numb
   pending: false,
   revision,
   refused_drones: null,
+  refused_count: null,
 });
 
 const refusal = (id: number, code: string, reason: string): Answer => ({

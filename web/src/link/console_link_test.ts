@@ -45,6 +45,14 @@ describe('console link', () => {
     expect(link.state.phase).toBe('live');
   });
 
+  it('A try is made in place of the connection that there is: never are two open, however often it is asked for', () => {
+    const { world, link } = connected();
+    for (let i = 0; i < 3; i++) link.open();
+    expect(world.sockets.map((socket) => socket.isClosed)).toEqual([true, true, true, false]);
+    world.pass(60_000);
+    expect(world.sockets.filter((socket) => !socket.isClosed).length).toBeLessThanOrEqual(1);
+  });
+
   it('An answer reaches the command that it belongs to', async () => {
     const { world, link } = connected();
     const first = link.command({ type: 'land', drones: ['cf1'] });

@@ -92,6 +92,7 @@ const eventShape = record({
   text: sentence,
   effect: sentence,
   next: sentence,
+  epoch: maybe(finite),
 });
 
 const statusShape = record({
@@ -114,6 +115,8 @@ const statusShape = record({
   clients: finite,
   lateness_us: maybe(record({ p50: finite, p99: finite, max: finite })),
   waits_for_resume: flag,
+  waiting: maybe(list(record({ text: sentence, from: name }), 100)),
+  waiting_more: maybe(finite),
   replay: maybe(
     record({
       number: finite,
@@ -138,6 +141,7 @@ const ackShape = record({
   pending: maybe(flag),
   revision: maybe(finite),
   refused_drones: maybe(list(record({ drone: text(64), reason: sentence }), 200_000)),
+  refused_count: maybe(finite),
 });
 
 const refusedShape = record({ id: orNull(finite), code: name, reason: sentence });

@@ -16,6 +16,7 @@ const done = (what: string, drone: string, text: string): SwarmEvent => ({
   text,
   effect: '',
   next: '',
+  epoch: 1,
 });
 
 describe('deedOf', () => {

@@ -1,6 +1,5 @@
 import { useSignal } from '@preact/signals';
 import { useEffect } from 'preact/hooks';
-import { activityOf } from '../model/drones';
 import type { Point } from '../model/geometry';
 import { isEmpty, type Edit } from '../model/targets';
 import { age, sentence } from '../model/units';
@@ -14,17 +13,44 @@ export function Covers() {
   const { phase } = session.linkState.value;
   if (phase === 'refused') return <Refused />;
   if (!session.hasSnapshot.value) return <Loading />;
-  if (!session.isLive.value) return <NotLive />;
+  const isLive = session.isLive.value;
   return (
     <>
-      {map.value?.problem.value && (
-        <div class="banner is-calm" role="status">
-          <p>{map.value.problem.value}</p>
-        </div>
-      )}
-      {session.status.value?.waits_for_resume && <Restarted />}
-      <Empty />
+      <div class="banners">
+        {!isLive && <NotLive />}
+        <Waiting />
+        {isLive && map.value?.problem.value && (
+          <div class="banner is-calm" role="status">
+            <p>{map.value.problem.value}</p>
+          </div>
+        )}
+        {isLive && <Restarted />}
+      </div>
+      {isLive && <Empty />}
     </>
+  );
+}
+
+/** Orders of anybody that no tick has taken, for as long as they wait. */
+function Waiting() {
+  const { session } = useApp();
+  const waiting = session.status.value?.waiting ?? [];
+  if (waiting.length === 0) return null;
+  const said = waiting.map(({ text, from }) => (from === '' ? text : `${text} (${from})`));
+  const more = session.status.value?.waiting_more ?? 0;
+  return (
+    <div class="banner is-calm is-beside" role="status" data-testid="waiting">
+      <span class="warning">
+        <Icon name="warning" />
+      </span>
+      <p>
+        <strong>
+          Not done yet: {said.join('; ')}
+          {more > 0 && `; and ${more} more`}.
+        </strong>
+        {session.snapshot?.isPaused ? 'It waits until the clock goes on.' : 'It waits for the next tick.'}
+      </p>
+    </div>
   );
 }
 
@@ -136,13 +162,14 @@ const fateAfterRestart = (fleet: string | undefined): string =>
     ? 'Drones in the air count as overridden and are not steered until they were seen on the ground; an emergency stop reaches them.'
     : 'Drones in the air hold until you let them go on; who was landing lands, who was marked failed or stopped stays so.';
 
+/** Until somebody resumed drones, and then while others hold still. */
 function Restarted() {
   const { session, orders } = useApp();
-  void session.beat.value;
+  const { isWaiting, holding } = session.restart;
+  if (!isWaiting.value && holding.value.length === 0) return null;
   // Not all: to resume one that is marked failed, or was sent down, is a decision of its own.
-  const held = session.droneIds.value.filter(
-    (_, drone) => session.snapshot && activityOf(session.snapshot, drone).word === 'held',
-  );
+  const ids = session.droneIds.value;
+  const held = holding.value.flatMap((drone) => ids[drone] ?? []);
   return (
     <div class="banner is-calm" role="alert">
       <span class="warning">
@@ -150,7 +177,9 @@ function Restarted() {
       </span>
       <p>
         <strong>The program was restarted.</strong>
-        It has its mission, targets and coverage back. {fateAfterRestart(session.mission.value?.fleet)}
+        {isWaiting.value
+          ? `It has its mission, targets and coverage back. ${fateAfterRestart(session.mission.value?.fleet)}`
+          : `${held.length} of ${ids.length} drones ${held.length === 1 ? 'holds' : 'hold'} since then: ${shortList(held)}.`}
       </p>
       <button
         type="button"
@@ -161,14 +190,26 @@ function Restarted() {
       >
         Resume those that hold
       </button>
+      {!isWaiting.value && (
+        <button type="button" onClick={() => session.restart.forget()}>
+          Let them hold
+        </button>
+      )}
     </div>
   );
 }
+
+const kMostNamed = 5;
+
+const shortList = (ids: readonly string[]): string =>
+  `${ids.slice(0, kMostNamed).join(', ')}${ids.length > kMostNamed ? ` and ${ids.length - kMostNamed} more` : ''}`;
 
 function Empty() {
   const { session, editor } = useApp();
   const isHidden =
     !isEmpty(session.draft.value) ||
+    session.isStaged.value ||
+    session.staging.value.undone.length > 0 ||
     session.targets.value === null ||
     editor.sketch.value.length > 0 ||
     editor.tool.value !== 'select';
@@ -177,13 +218,17 @@ function Empty() {
   void session.beat.value;
   const active = session.snapshot?.active ?? 0;
   return (
-    <div class="cover">
-      <h2>Drop points on the field to start</h2>
-      <p>
-        {active > 0 ? 'Nothing is watched, so the active drones hover.' : 'Nothing is watched, and no drone is active.'}{' '}
-        Click a few places that matter; Enter commits them, and{' '}
-        {active > 0 ? 'sends the swarm' : 'whatever takes off goes there'}.
-      </p>
+    <div class="cover is-low">
+      <div>
+        <h2>Drop points on the field to start</h2>
+        <p>
+          {active > 0
+            ? 'Nothing is watched, so the active drones hover.'
+            : 'Nothing is watched, and no drone is active.'}{' '}
+          Click a few places that matter; Enter commits them, and{' '}
+          {active > 0 ? 'sends the swarm' : 'whatever takes off goes there'}.
+        </p>
+      </div>
       <div class="row">
         <button type="button" class="primary" disabled={!mayEdit} onClick={() => editor.take('point')}>
           <Icon name="point" />

@@ -1,5 +1,6 @@
 import { useEffect, useRef } from 'preact/hooks';
 import { clock } from '../model/units';
+import type { LoggedEvent } from '../session/event_book';
 import { useApp } from './app_context';
 import { Icon } from './icons';
 
@@ -36,8 +37,9 @@ export function EventLog() {
       </header>
       {events.length === 0 && <p class="pad dim">Nothing has happened yet.</p>}
       <ol class="log" tabIndex={0} aria-label="Events, newest first">
-        {events.map((event) => (
-          <li key={event.number}>
+        {events.flatMap((event, i) => [
+          <FlightBefore key={`${keyOf(event)} after`} event={event} next={events[i - 1]} />,
+          <li key={keyOf(event)}>
             <span class="dim">{clock(event.time_s)}</span>
             <span class={event.severity}>
               <Icon name={event.severity} small />
@@ -54,9 +56,24 @@ export function EventLog() {
                 {event.next && `Next: ${event.next}`}
               </span>
             )}
-          </li>
-        ))}
+          </li>,
+        ])}
       </ol>
     </aside>
+  );
+}
+
+/** Numbers begin anew with the program. */
+const keyOf = (event: LoggedEvent): string => `${event.run} ${event.number}`;
+
+/** A line between the events of two flights. */
+function FlightBefore({ event, next }: { event: LoggedEvent; next: LoggedEvent | undefined }) {
+  if (!next || (next.run === event.run && next.epoch === event.epoch)) return null;
+  return (
+    <li class="flight">
+      {next.run === event.run
+        ? 'Before this, in the mission flown before'
+        : 'Before this, until the program was restarted'}
+    </li>
   );
 }

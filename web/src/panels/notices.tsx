@@ -1,5 +1,5 @@
 import { useEffect } from 'preact/hooks';
-import type { Notice } from '../session/session';
+import type { Notice } from '../session/notices';
 import { useApp } from './app_context';
 import { Icon } from './icons';
 

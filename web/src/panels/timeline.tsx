@@ -21,7 +21,9 @@ export function Timeline() {
   const ticks = Array.from({ length: Math.floor(span / tickS) }, (_, i) => (firstTick + i) * tickS).filter(
     (time) => time < from + 0.97 * span,
   );
-  const shown = session.events.value.filter((event) => event.time_s >= from && event.time_s <= now).slice(-60);
+  const shown = session.events.value
+    .filter((event) => session.isOfThisFlight(event) && event.time_s >= from && event.time_s <= now)
+    .slice(-60);
   return (
     <div class="timeline">
       <div class="track" role="img" aria-label={describe(shown)}>

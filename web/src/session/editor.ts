@@ -185,8 +185,8 @@ export class Editor {
     const { session } = this;
     if (this.isSteppingBack || !this.mayEdit()) return;
     this.isSteppingBack = true;
-    const based_on = session.targets.value?.revision ?? 0;
-    void session.command({ type, based_on }, done).then(() => (this.isSteppingBack = false));
+    const command = session.forThisFlight({ type, based_on: session.targets.value?.revision ?? 0 });
+    void session.command(command, done).then(() => (this.isSteppingBack = false));
   }
 
   // --- points and shapes ------------------------------------------------------------------------------------------
@@ -315,6 +315,7 @@ export class Editor {
 
   movePoint(which: EntryName, index: number, to: Point, again: boolean): void {
     const point_m = rounded(this.session.field.value?.clamped(to) ?? to);
+    if (!again) this.tellKeptInside(which, [to], [point_m]);
     this.put(
       { what: `a point of ${which.name} moved`, edits: [{ op: 'move_point', ...which, index, point_m }] },
       again,
@@ -340,9 +341,20 @@ export class Editor {
     const entry = find(this.session.draft.value, which);
     if (!entry) return;
     const field = this.session.field.value;
-    const points = scaled(from, factor).map((p) => rounded(field ? field.clamped(add(p, by)) : add(p, by)));
+    const meant = scaled(from, factor).map((p) => add(p, by));
+    const points = meant.map((p) => rounded(field ? field.clamped(p) : p));
+    if (!again) this.tellKeptInside(which, meant, points);
     const edit: Edit = { op: 'replace', ...which, entry: withPoints(entry, points) };
     this.put({ what: factor === 1 ? `${which.name} moved` : `${which.name} spread`, edits: [edit] }, again);
+  }
+
+  /** What was typed is not always what comes of it. */
+  private tellKeptInside(which: EntryName, meant: readonly Point[], kept: readonly Point[]): void {
+    const moved = meant.filter((p, i) => distance(p, kept[i]!) > 1e-5).length;
+    if (moved === 0) return;
+    const what = meant.length === 1 ? 'That is' : moved === 1 ? 'One point is' : `${moved} points are`;
+    const where = moved === 1 ? 'it was put on its edge' : 'they were put on its edge';
+    this.session.notify('warning', `${what} outside of the field: ${where} (${which.name}).`);
   }
 
   centreOf = (which: EntryName): Point | null => {

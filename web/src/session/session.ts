@@ -1,34 +1,19 @@
 import { batch, computed, signal } from '@preact/signals';
 import { ConsoleLink, type Answer, type Command, type LinkState, type World } from '../link/console_link';
 import type { AgeMap, Coverage, Density, Frame, Snapshot, Trails } from '../link/frames';
-import type { Hello, Mission, Operator, ServerMessage, Status, SwarmEvent, TargetsMessage } from '../link/messages';
+import type { Hello, MessageOf, Mission, Operator, ServerMessage, Status, TargetsMessage } from '../link/messages';
 import { FieldFrame } from '../model/field_frame';
 import { draftOf, isStaged, nothingStaged, rebase, touched, unsent, type Staging, type Step } from '../model/staging';
 import { kNoTargets, type EntryName, type Targets } from '../model/targets';
 import { deedOf } from '../model/deeds';
+import { refusalWords } from '../model/refusals';
 import { sentence } from '../model/units';
+import { EventBook, type LoggedEvent } from './event_book';
+import { kMostOthers, Notices, type NoticeKind } from './notices';
+import { RestartWatch } from './restart_watch';
 import { Series } from './series';
+import { WaitingOrders } from './waiting_orders';
 
-export type NoticeKind = 'info' | 'warning' | 'alarm';
-
-/** A short message for the person at this console, read out by screen readers. */
-export interface Notice {
-  readonly number: number;
-  readonly kind: NoticeKind;
-  readonly text: string;
-}
-
-const kMostEvents = 1000;
-/** An order that was accepted and that no tick has taken yet. */
-interface Waiting {
-  readonly type: string;
-  readonly notice: number;
-  readonly done: string | undefined;
-}
-
-/** Alarms stay until somebody dismisses them; so many are kept, and other messages besides. */
-const kMostAlarms = 50;
-const kMostOthers = 4;
 const kBeatMs = 200;
 /** A picture that is older than this is not live; one that comes after it must be this young to be live again. */
 export const kStaleS = 1.5;
@@ -53,8 +38,9 @@ export class Session {
   readonly targets = signal<TargetsMessage | null>(null);
   readonly status = signal<Status | null>(null);
   readonly operators = signal<readonly Operator[]>([]);
-  readonly events = signal<readonly SwarmEvent[]>([]);
-  readonly notices = signal<readonly Notice[]>([]);
+  private readonly told: Notices;
+  private readonly book = new EventBook();
+  readonly events = this.book.events;
   readonly staging = signal<Staging>(nothingStaged(0));
   readonly beat = signal(0);
   readonly hasSnapshot = signal(false);
@@ -99,6 +85,8 @@ export class Session {
   ageMap: AgeMap | null = null;
   trails: Trails | null = null;
   readonly series = new Series();
+  /** Which drones have held since the program was restarted. */
+  readonly restart = new RestartWatch();
 
   private isCommitting = false;
   private targetsWhileCommitting: TargetsMessage | null = null;
@@ -107,17 +95,17 @@ export class Session {
   /** The staged steps that were sent to be committed; those that come after them are not among them. */
   private sent: readonly Step[] = [];
 
-  private waiting: readonly Waiting[] = [];
-  /** Which flight `mission` is; see protocol/README.md. */
+  private readonly waiting: WaitingOrders;
+  /** Which run of the program flies `mission`; with its epoch it tells which flight that is, see protocol/README.md. */
   private run = '';
+  /** Flights that this page has seen; what was asked in another one is not about this one. */
+  private flights = 0;
 
   private readonly missionListeners = new Set<() => void>();
   private readonly snapshotListeners = new Set<(snapshot: Snapshot) => void>();
   private lastBeatMs = 0;
-  private nextNotice = 1;
   private previewBusy = false;
   private previewWanted = false;
-  private lastEvent = 0;
   private shownEditing = '[]';
   private cancelOld: () => void = () => undefined;
 
@@ -132,6 +120,12 @@ export class Session {
       mistakeSeen: (what: string) => this.notify('warning', `The program sent something unexpected: ${what}`),
     };
     this.link = new ConsoleLink(world, listener, identity);
+    this.told = new Notices(world);
+    this.waiting = new WaitingOrders(this.told);
+  }
+
+  get notices(): Notices['all'] {
+    return this.told.all;
   }
 
   /** Calls back at every snapshot; the function returned ends that. */
@@ -140,7 +134,7 @@ export class Session {
     return () => this.snapshotListeners.delete(listener);
   }
 
-  /** Calls back when another mission is flown than before: indices and names of the old one mean something else then. */
+  /** Calls back when another flight is shown than before: indices and names of the old one mean something else then. */
   onAnotherMission(listener: () => void): void {
     this.missionListeners.add(listener);
   }
@@ -152,27 +146,17 @@ export class Session {
     return Math.max(0, (programMs - this.snapshot.steadyMs) / 1000);
   }
 
-  /**
-   * Shown for a while, or for `lastsMs` where it makes no sense any more after that (null: until it is dismissed); an
-   * alarm until somebody dismisses it. Gives back the notice's number.
-   */
-  notify(kind: NoticeKind, text: string, lastsMs: number | null = kind === 'info' ? 4000 : 9000): number {
-    const notice = { number: this.nextNotice++, kind, text };
-    const alarms = this.notices.value.filter((one) => one.kind === 'alarm').slice(-kMostAlarms);
-    // What is said once more takes the place of what was said before.
-    const isOther = (one: Notice): boolean => one.kind !== 'alarm' && (one.kind !== kind || one.text !== text);
-    const others = this.notices.value.filter(isOther).slice(-kMostOthers);
-    this.notices.value = [...alarms, ...others, notice].sort((a, b) => a.number - b.number);
-    if (kind !== 'alarm' && lastsMs !== null) this.world.after(lastsMs, () => this.dismiss(notice.number));
-    return notice.number;
+  /** See `Notices`. */
+  notify(kind: NoticeKind, text: string, lastsMs?: number | null): number {
+    return this.told.notify(kind, text, lastsMs);
   }
 
   dismiss(number: number): void {
-    this.notices.value = this.notices.value.filter((notice) => notice.number !== number);
+    this.told.dismiss(number);
   }
 
   dismissAlarms(): void {
-    this.notices.value = this.notices.value.filter((notice) => notice.kind !== 'alarm');
+    this.told.dismissAlarms();
   }
 
   /** Sends a command and says what became of it; true when it was accepted. */
@@ -186,9 +170,14 @@ export class Session {
     return answer.ok;
   }
 
-  /** An order to drones, meant for those of the flight that is shown here: another flight refuses it. */
+  /** Meant for the drones, or the targets, of the flight that is shown here: another flight refuses it. */
   forThisFlight(command: Command): Command {
     return { ...command, run: this.run, epoch: this.mission.value?.epoch ?? 0 };
+  }
+
+  /** Whether it happened in the flight that is shown. */
+  isOfThisFlight(event: LoggedEvent): boolean {
+    return event.run === this.run && event.epoch === this.mission.value?.epoch;
   }
 
   /** The same of an order that brings drones down, which goes out however old the picture is; says where it stands. */
@@ -212,43 +201,14 @@ export class Session {
       return;
     }
     if (answer.ack.pending && type !== 'undo' && type !== 'redo') {
-      this.waitFor(type, done); // targets are shown at once, whenever a tick takes them
+      // targets are shown at once, whenever a tick takes them
+      const why = this.snapshot?.isPaused ? 'the clock is paused' : 'the next tick is late';
+      this.waiting.add(type, why, done, this.status.value?.waiting != null);
       return;
     }
-    const refused = answer.ack.refused_drones ?? [];
-    if (refused.length > 0)
-      this.notify(
-        'warning',
-        refused
-          .slice(0, 3)
-          .map((r) => `${r.drone}: ${r.reason}`)
-          .join('; '),
-      );
+    const refused = refusalWords(done ?? type, answer.ack);
+    if (refused !== '') this.notify('warning', refused);
     else if (done) this.notify('info', done);
-  }
-
-  /** Nothing is said to be done that no tick has taken: the program tells of it when one has. */
-  private waitFor(type: string, done: string | undefined): void {
-    const why = this.snapshot?.isPaused ? 'the clock is paused' : 'the next tick is late';
-    const notice = this.notify('warning', `Waiting: ${why}. Not done yet: ${done ?? type}`, null);
-    this.waiting = [...this.waiting, { type, notice, done }];
-  }
-
-  /** Nobody will tell any more what became of them. */
-  private dropWaiting(): void {
-    for (const one of this.waiting) this.dismiss(one.notice);
-    this.waiting = [];
-  }
-
-  /** An order of this console that waited was taken by a tick, or refused by it, which is an event of its own. */
-  private settleWaiting(event: SwarmEvent): void {
-    if (event.by === '' || event.by !== this.hello.value?.name) return;
-    const isRefused = event.source === 'swarm' && event.what === 'refused';
-    const found = this.waiting.find((one) => isRefused || (event.source === 'operator' && event.what === one.type));
-    if (!found) return;
-    this.waiting = this.waiting.filter((one) => one !== found);
-    this.dismiss(found.notice);
-    if (!isRefused && found.done) this.notify('info', found.done);
   }
 
   // --- what comes from the program --------------------------------------------------------------------------------
@@ -261,7 +221,7 @@ export class Session {
   private take(message: ServerMessage): void {
     switch (message.type) {
       case 'hello':
-        if (message.run !== this.hello.value?.run) this.dropWaiting();
+        if (message.run !== this.hello.value?.run) this.waiting.drop();
         this.hello.value = message;
         this.isOld.value = this.snapshot !== null;
         this.shownEditing = '[]';
@@ -273,11 +233,12 @@ export class Session {
         this.takeTargets(message);
         break;
       case 'events':
-        if (message.afresh) this.takeEventsAfresh(message.events);
-        else this.takeEvents(message.events);
+        this.takeEvents(message);
         break;
       case 'status':
+        if (message.epoch !== this.mission.value?.epoch) break;
         this.status.value = message;
+        this.restart.take(message.waits_for_resume, this.snapshot);
         break;
       case 'presence':
         this.operators.value = message.operators;
@@ -289,29 +250,37 @@ export class Session {
 
   private takeMission(mission: Mission): void {
     const before = this.mission.value;
-    const isAnother = !isSameMission(mission, before);
+    const run = this.hello.value?.run ?? '';
+    const isRestarted = run !== this.run;
+    const isAnother = isRestarted || !isSameMission(mission, before);
     this.mission.value = mission;
-    this.run = this.hello.value?.run ?? '';
+    this.run = run;
     if (!isAnother) return;
+    this.flights++;
     this.snapshot = this.density = this.ghost = this.coverage = this.ageMap = this.trails = null;
     this.hasSnapshot.value = false;
     this.isOld.value = false;
-    if (before) this.partWith(before, mission);
+    this.targets.value = null;
+    this.status.value = null;
+    this.isCommitting = false;
+    this.committedRevision = null;
+    this.targetsWhileCommitting = null;
+    this.restart.forget();
+    if (before) this.partWith(before, mission, isRestarted);
     this.restage(nothingStaged(0));
     this.series.reset(mission.mission.drones.length);
   }
 
-  /** Nothing that was chosen or staged for the old mission may reach the new one; the program does not say who loaded it. */
-  private partWith(before: Mission, now: Mission): void {
-    const edits = this.staging.value.steps.length;
-    const dropped =
-      edits === 0 ? '' : ` ${edits === 1 ? 'Your staged edit was' : `Your ${edits} staged edits were`} dropped.`;
-    this.notify(
-      'warning',
-      `Another mission is flown now: ${now.mission.name}, after ${before.mission.name}. Nothing is selected any more.${dropped}`,
-    );
-    this.committedRevision = null;
-    this.dropWaiting();
+  /**
+   * Nothing that was chosen, staged or told for the old flight is taken for the new one's, also where a restarted program
+   * goes on with the same mission: what became of its drones and targets meanwhile this page cannot know.
+   */
+  private partWith(before: Mission, now: Mission, isRestarted: boolean): void {
+    this.waiting.drop();
+    const alarms = this.told.dismissEvents();
+    const what = partingWords(before.mission.name, now.mission.name, isRestarted);
+    const gone = goneWords(this.staging.value.steps.length, alarms);
+    this.notify(isRestarted ? 'alarm' : 'warning', `${what} Nothing is selected any more.${gone}`);
     for (const listener of this.missionListeners) listener();
   }
 
@@ -346,52 +315,45 @@ export class Session {
     this.restage(staging);
   }
 
-  private takeEvents(events: readonly SwarmEvent[]): void {
-    // After a reconnect the newest 200 come again; a program that was restarted counts from 1 anew.
-    const first = events[0]?.number ?? 0;
-    const isRestarted = events.length > 0 && events[events.length - 1]!.number < this.lastEvent;
-    const known = isRestarted ? [] : this.events.value.filter((event) => event.number < first);
-    this.events.value = [...known, ...events].slice(-kMostEvents);
-    const news = events.filter((event) => event.number > this.lastEvent);
-    for (const event of news) this.settleWaiting(event);
-    if (this.lastEvent > 0) this.tell(news);
-    this.lastEvent = events[events.length - 1]?.number ?? this.lastEvent;
+  private takeEvents(message: MessageOf<'events'>): void {
+    const [run, epoch] = [this.hello.value?.run ?? '', this.mission.value?.epoch ?? 0];
+    if (message.afresh) {
+      this.series.reset(this.droneIds.value.length);
+      this.book.replace(message.events, run, epoch);
+      return;
+    }
+    const news = this.book.take(message.events, run, epoch);
+    for (const event of news) if (event.by !== '' && event.by === this.hello.value?.name) this.waiting.settle(event);
+    this.tell(news);
   }
 
   /** What an operator here did is no news to this console; what happened by itself is said before who asked for what. */
-  private tell(events: readonly SwarmEvent[]): void {
+  private tell(events: readonly LoggedEvent[]): void {
     this.announce(events.filter((event) => event.severity !== 'info' && event.source !== 'operator'));
     for (const event of events
       .filter((one) => one.source === 'operator' && this.isOfAnother(one))
       .slice(-kMostOthers)) {
       const deed = deedOf(event);
-      this.notify(deed.kind, deed.text);
+      this.told.tell(deed.kind, deed.text);
     }
   }
 
   /** Where two consoles have the same name, what either did is said on both. */
-  private isOfAnother(event: SwarmEvent): boolean {
+  private isOfAnother(event: LoggedEvent): boolean {
     const own = this.hello.value;
     const isShared = this.operators.value.some((one) => one.client !== own?.client && one.name === own?.name);
     return event.by !== own?.name || isShared;
   }
 
-  /** Another moment of a recording: what stood there before is of elsewhere, and nothing of it is news. */
-  private takeEventsAfresh(events: readonly SwarmEvent[]): void {
-    this.series.reset(this.droneIds.value.length);
-    this.events.value = events;
-    this.lastEvent = events[events.length - 1]?.number ?? 0;
-  }
-
   /** One message for a few events, one for all of them where they are many: the log has each. */
-  private announce(news: readonly SwarmEvent[]): void {
-    const [first] = news;
-    if (!first) return;
+  private announce(news: readonly LoggedEvent[]): void {
     const kind = news.some((event) => event.severity === 'alarm') ? 'alarm' : 'warning';
-    if (news.length > 2) this.notify(kind, `${first.text}, and ${news.length - 1} more: see the event log.`);
+    const first = news.find((event) => event.severity === kind);
+    if (!first) return;
+    if (news.length > 2) this.told.tell(kind, `${first.text}, and ${news.length - 1} more: see the event log.`);
     else
       for (const event of news)
-        this.notify(event.severity, event.effect ? `${event.text}: ${event.effect}.` : event.text);
+        this.told.tell(event.severity, event.effect ? `${event.text}: ${event.effect}.` : event.text);
   }
 
   private takeFrame(frame: Frame): void {
@@ -415,6 +377,7 @@ export class Session {
     if (this.snapshotAtMs - this.lastBeatMs < kBeatMs) return;
     this.lastBeatMs = this.snapshotAtMs;
     batch(() => {
+      this.restart.take(this.status.value?.waits_for_resume ?? false, snapshot);
       this.hasSnapshot.value = true;
       this.beat.value++;
     });
@@ -445,10 +408,12 @@ export class Session {
    */
   async commit(): Promise<Answer> {
     const { basedOn, steps } = this.staging.value;
+    const flight = this.flights;
     this.isCommitting = true;
     this.sent = steps;
     const edits = steps.flatMap((step) => step.edits);
-    const answer = await this.link.command({ type: 'edit', based_on: basedOn, edits });
+    const answer = await this.link.command(this.forThisFlight({ type: 'edit', based_on: basedOn, edits }));
+    if (flight !== this.flights) return ofFlightBefore(answer);
     batch(() => {
       this.isCommitting = false;
       if (answer.ok) this.committedRevision = answer.ack.revision ?? 0;
@@ -498,3 +463,22 @@ const isSameMission = (a: Mission, b: Mission | null): boolean =>
   a.mission.name === b.mission.name &&
   a.mission.drones.length === b.mission.drones.length &&
   a.mission.drones.every((drone, i) => drone.id === b.mission.drones[i]!.id);
+
+function partingWords(before: string, now: string, isRestarted: boolean): string {
+  if (!isRestarted) return `Another mission is flown now: ${now}, after ${before}.`;
+  return `The program was restarted and flies ${now === before ? `${now} again` : `${now}, after ${before}`}.`;
+}
+
+/** What went with the flight before. */
+function goneWords(edits: number, alarms: number): string {
+  const dropped = edits === 1 ? ' Your staged edit was dropped.' : ` Your ${edits} staged edits were dropped.`;
+  const put = alarms === 1 ? ' The alarm of before is' : ` The ${alarms} alarms of before are`;
+  return `${edits > 0 ? dropped : ''}${alarms > 0 ? `${put} in the event log.` : ''}`;
+}
+
+/** What a commit came to whose flight is not shown any more. */
+function ofFlightBefore(answer: Answer): Answer {
+  if (!answer.ok) return answer;
+  const reason = 'Your edit was committed to the flight before; the one that is shown now does not have it.';
+  return { ok: false, refused: { type: 'refused', id: answer.ack.id, code: 'stale', reason } };
+}
