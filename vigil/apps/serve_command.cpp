@@ -116,16 +116,25 @@ bool may_end(FlownDrones& flown, const ServeOptions& options) {
   });
 }
 
+/// Why a folder is refused that keeps a flight of something else. What keeps what was flown comes first.
+std::string of_another_mission(const runtime::FlightStore& store, const runtime::SavedFlight& saved,
+                               const runtime::Mission& mission) {
+  const std::string folder = in_words(store.folder());
+  const std::string kept = runtime::parse_mission(saved.mission_text, folder).name;
+  const std::string how = kept == mission.name ? ", as its file was before it was changed" : "";
+  return fmt::format(
+      "--state {}: keeps a flight of the mission {}{}; give the file of that one to go on with it, or another folder "
+      "for the mission {}; --afresh would throw away what was flown",
+      folder, kept, how, mission.name);
+}
+
 /// What an earlier run left of the same mission; nothing where it left nothing.
 std::optional<runtime::SavedFlight> left_by_an_earlier_run(const runtime::FlightStore& store,
                                                            const runtime::Mission& mission) {
   std::optional<runtime::SavedFlight> saved = store.load();
   if (!saved) return std::nullopt;
   if (saved->mission_text != runtime::mission_yaml(mission) || saved->drones.size() != mission.drones.size())
-    throw Failure(kBadInput,
-                  fmt::format("--state {}: is of another mission, or of this one before it was changed; give "
-                              "--afresh to forget it, or another folder",
-                              in_words(store.folder())));
+    throw Failure(kBadInput, of_another_mission(store, *saved, mission));
   return saved;
 }
 

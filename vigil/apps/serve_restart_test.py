@@ -50,7 +50,7 @@ class Restart(unittest.TestCase):
                 self.assertLess(state["metric_percent"], 50)
                 self.assertEqual(client.ask(type="resume", id=1, drones="all")["type"], "ack")
                 wait_for_activities(program, client, ["active", "grounded", "active"])
-            with self.assertRaisesRegex(RuntimeError, "another mission"):
+            with self.assertRaisesRegex(RuntimeError, "(?s)keeps a flight of the mission paper.* another folder .* --afresh"):
                 Program(VIGIL, MISSIONS / "lab.yaml", "--state", folder)
 
     def test_a_change_that_was_acknowledged_survives_a_kill_right_after_it(self):

@@ -88,7 +88,8 @@ std::string_view after_restart(bool has_real_drones) {
     return "drones in the air count as overridden and are not steered until they were seen on the ground; an emergency "
            "stop reaches them; nothing takes off by itself";
   return "drones in the air hold until somebody resumes them; who was landing lands, who was marked failed, overridden "
-         "or had its motors stopped stays so; nothing takes off by itself";
+         "or had its motors stopped stays so; nothing takes off by itself; the clock runs at 1x, whether it was paused "
+         "or faster before";
 }
 
 std::string refusal_words(std::string_view id, CommandKind wish, const swarm::DroneSnapshot& drone) {

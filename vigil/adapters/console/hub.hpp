@@ -197,6 +197,8 @@ class Hub {
   void show_to_all(ClientLine::Latest kind, const SharedBytes& bytes);
   [[nodiscard]] std::string drone_id(std::size_t index) const;
   [[nodiscard]] Json status() const;
+  /// Adds the orders that wait for the next tick to what `status` tells.
+  void list_waiting(StatusContext& context) const;
   /// The program's steady clock, as the protocol tells it.
   [[nodiscard]] double steady_ms() const;
 

@@ -33,6 +33,13 @@ bool concerns_drone(swarm::CommandKind wish) {
   return wish != swarm::CommandKind::kSetTarget && wish != swarm::CommandKind::kStartAfresh;
 }
 
+/// "go to cf1, cf2" for "go_to"; "land_all" names its drones itself.
+std::string order_words(std::string what, const std::string& drones) {
+  const bool names_them = drones.empty() || what == "land_all";
+  std::ranges::replace(what, '_', ' ');
+  return names_them ? what : what + " " + drones;
+}
+
 bool is_logged_by_the_flight(std::string_view what) {
   return what != "edit" && what != "undo" && what != "redo" && what != "load_mission" && what != "preview_density";
 }
@@ -405,6 +412,17 @@ void Hub::send_snapshot(std::chrono::nanoseconds now) {
   show_to_all(ClientLine::Latest::kSnapshot, shared(snapshot_frame(*frame_, clock_, context)));
 }
 
+void Hub::list_waiting(StatusContext& context) const {
+  std::map<std::uint64_t, const Waiting*> in_order;  // by ticket: the oldest first
+  for (const auto& [ticket, waiting] : waiting_)
+    if (waiting.is_at_control && waiting.answer.is_pending) in_order.emplace(ticket, &waiting);
+  for (const auto& [ticket, waiting] : in_order) {
+    if (context.waiting.size() == kMostWaitingShown) break;
+    context.waiting.push_back({order_words(waiting->what, waiting->drones), waiting->by});
+  }
+  context.waiting_more = in_order.size() - context.waiting.size();
+}
+
 Json Hub::status() const {
   StatusContext context{.epoch = flight_->epoch(),
                         .recording = {},
@@ -412,7 +430,10 @@ Json Hub::status() const {
                         .clients = clients_.size(),
                         .lateness = clock_.lateness,
                         .waits_for_resume = waits_for_resume_,
+                        .waiting = {},
+                        .waiting_more = 0,
                         .replay = replay_};
+  if (!flight_->is_recording()) list_waiting(context);
   if (const runtime::QueuedRecorder* recorder = flight_->recorder())
     context.recording = RecordingState{setup_.recording_folder, recorder->kept_ticks(), recorder->lost_ticks()};
   return status_json(areas_, context);
@@ -453,7 +474,8 @@ Json Hub::state() const {
              {"idle", swarm::name_of(snapshot.idle)},
              {"drones", std::move(drones)}};
   const Json more = status();
-  for (const char* member : {"areas", "recording", "clients", "lateness_us", "waits_for_resume", "replay"})
+  for (const char* member :
+       {"areas", "recording", "clients", "lateness_us", "waits_for_resume", "waiting", "waiting_more", "replay"})
     state[member] = more.at(member);
   return state;
 }

@@ -25,6 +25,10 @@ TEST(Restart, After_a_restart_it_waits_for_somebody_to_resume) {
   const Visitor ana = console.join();
   console.pass(600ms);
   EXPECT_EQ(ana.line->of("targets").front().at("by"), "restored");
+  std::string effects;
+  for (const Json& message : ana.line->of("events"))
+    for (const Json& event : message.at("events")) effects += std::string(event.at("effect")) + "\n";
+  EXPECT_NE(effects.find("the clock runs at 1x, whether it was paused"), std::string::npos) << effects;
   EXPECT_EQ(console.hub.state().at("waits_for_resume"), true);
   EXPECT_EQ(console.hub.state().at("active"), 0);
   EXPECT_EQ(console.ask(ana, {{"type", "resume"}, {"id", 1}, {"drones", "all"}}, 200ms).at("type"), "ack");
@@ -110,6 +114,24 @@ TEST_F(KeptFlightTest, An_order_under_a_paused_clock_is_saved_before_it_is_ackno
   console.ask(ana, {{"type", "pause"}, {"id", 1}});
   EXPECT_EQ(console.ask(ana, {{"type", "land"}, {"id", 2}, {"drones", {"b"}}}, 300ms).at("pending"), true);
   EXPECT_EQ(saved_orders()[1], swarm::Intent::kLand);
+}
+
+TEST(PausedClock, Everybody_is_told_which_orders_wait_for_it_and_whose_they_are) {
+  ConsoleForTests console;
+  console.fly();
+  const Visitor ana = console.join({{"name", "Ana"}});
+  console.ask(ana, {{"type", "pause"}, {"id", 1}});
+  EXPECT_EQ(console.ask(ana, {{"type", "land_all"}, {"id", 2}}, 300ms).at("pending"), true);
+  for (int id = 3; id < 12; ++id) console.say(ana, {{"type", "hold"}, {"id", id}, {"drones", {"b"}}});
+  console.pass(700ms);
+  const Json state = console.hub.state();
+  ASSERT_EQ(state.at("waiting").size(), kMostWaitingShown);
+  EXPECT_EQ(state.at("waiting").at(0), (Json{{"text", "land all"}, {"from", "Ana"}}));
+  EXPECT_EQ(state.at("waiting").at(1), (Json{{"text", "hold b"}, {"from", "Ana"}}));
+  EXPECT_EQ(state.at("waiting_more"), 2);
+  console.ask(ana, {{"type", "resume_clock"}, {"id", 12}}, 300ms);
+  EXPECT_TRUE(console.hub.state().at("waiting").empty());
+  EXPECT_EQ(console.hub.state().at("waiting_more"), 0);
 }
 
 TEST_F(KeptFlightTest, A_restart_goes_on_with_the_orders_that_stood_and_nothing_takes_off) {

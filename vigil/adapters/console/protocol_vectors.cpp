@@ -325,6 +325,8 @@ Json replay_status_vector(const std::vector<runtime::AreaState>& areas, StatusCo
                               .progress = 1.0,
                               .is_at_end = true,
                               .difference = "metric: recorded 0.5, recomputed 0.25"};
+  status.waiting.clear();  // a recording is not ordered about
+  status.waiting_more = 0;
   return status_json(areas, status);
 }
 
@@ -393,6 +395,8 @@ Json server_messages() {
       .clients = 2,
       .lateness = {.ticks = 1, .p50_us = 64.0, .p99_us = 128.0, .p999_us = 256.0, .max_us = 512.0},
       .waits_for_resume = true,
+      .waiting = {{"land a, b", "Ana"}},
+      .waiting_more = 2,
       .replay = {}};
   Json list = Json::array();
   const auto add = [&list](const char* name, Json message) {

@@ -10,4 +10,7 @@ namespace vigil::console {
 /// None where the name is not there, or where a percent sign is not followed by two hexadecimal digits.
 [[nodiscard]] std::optional<std::string> query_value(std::string_view query, std::string_view name);
 
+/// Whether the name has more than one value in the query.
+[[nodiscard]] bool names_twice(std::string_view query, std::string_view name);
+
 }  // namespace vigil::console

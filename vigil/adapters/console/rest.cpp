@@ -151,6 +151,8 @@ void Rest::explain(const std::string& query, Role role, const Reply& reply) {
   if (!hub_.has_ticked()) return reply(nothing_flies());
   const std::optional<std::string> drone = query_value(query, "drone");
   if (!drone) return reply(refusal(400, "malformed", "say of which drone: /api/why?drone=ID"));
+  if (names_twice(query, "drone"))
+    return reply(refusal(400, "malformed", "drone stands there twice; ask for one at a time: /api/why?drone=ID"));
   answer_command(ClientMessage{0, "why", Why{*drone}}, role, reply);
 }
 

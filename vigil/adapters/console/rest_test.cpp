@@ -94,6 +94,15 @@ TEST_F(RestTest, Before_anything_is_flown_it_says_so) {
   EXPECT_EQ(json(get("/api/version")).at("login"), false);
 }
 
+TEST_F(RestTest, Why_is_answered_for_one_drone_at_a_time) {
+  console.fly();
+  console.pass(100ms);
+  const HttpAnswer answer = ask(get("/api/why?drone=a&drone=b"));
+  EXPECT_EQ(answer.status, 400);
+  EXPECT_NE(answer.body->find("one at a time"), std::string::npos);
+  EXPECT_EQ(status(get("/api/why?drone=a")), 200);
+}
+
 TEST_F(RestTest, The_state_is_the_swarms_in_the_world_frame) {
   console.fly();
   console.pass(100ms);

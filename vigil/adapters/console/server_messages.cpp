@@ -120,6 +120,8 @@ Json status_json(const std::vector<runtime::AreaState>& areas, const StatusConte
     recording = {{"folder", context.recording->folder},
                  {"ticks", context.recording->ticks},
                  {"lost_ticks", context.recording->lost_ticks}};
+  Json waiting = Json::array();
+  for (const WaitingOrder& order : context.waiting) waiting.push_back({{"text", order.text}, {"from", order.from}});
   return {{"type", "status"},
           {"epoch", context.epoch},
           {"areas", std::move(list)},
@@ -132,6 +134,8 @@ Json status_json(const std::vector<runtime::AreaState>& areas, const StatusConte
             {"p999", context.lateness.p999_us},
             {"max", context.lateness.max_us}}},
           {"waits_for_resume", context.waits_for_resume},
+          {"waiting", std::move(waiting)},
+          {"waiting_more", context.waiting_more},
           {"replay", context.replay ? replay_json(*context.replay) : Json(nullptr)}};
 }
 

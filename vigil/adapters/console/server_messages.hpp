@@ -68,6 +68,15 @@ struct ReplayState {
   std::string difference;  ///< what of the tick came out otherwise than recorded, for people; empty: nothing
 };
 
+/// An order that was acknowledged as pending, and has not been carried out.
+struct WaitingOrder {
+  std::string text;  ///< for people: "land cf1, cf2"
+  std::string from;  ///< who gave it
+};
+
+/// Of the orders that wait, those that `status` lists.
+inline constexpr std::size_t kMostWaitingShown = 8;
+
 struct StatusContext {
   std::uint32_t epoch = 0;
   std::optional<RecordingState> recording;
@@ -75,6 +84,8 @@ struct StatusContext {
   std::size_t clients = 0;
   runtime::LatenessFigures lateness;
   bool waits_for_resume = false;
+  std::vector<WaitingOrder> waiting;  ///< the oldest first, at most kMostWaitingShown
+  std::size_t waiting_more = 0;       ///< how many wait besides
   std::optional<ReplayState> replay;
 };
 
