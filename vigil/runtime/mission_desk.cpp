@@ -104,6 +104,9 @@ std::string reason_of(const MissionFault& fault, const Mission& mission) {
   return on_one_line(reason, kMostBytes);
 }
 
+/// For people, also where a desk has just begun and knows of none.
+std::string last_change(const std::string& what) { return what.empty() ? "all targets" : what; }
+
 }  // namespace
 
 std::optional<Refusal> check_targets(const Mission& mission) {
@@ -145,9 +148,9 @@ std::variant<Mission, Refusal> MissionDesk::draft(std::span<const TargetEdit> ed
                    fmt::format("based_on: there is no revision {}; the newest is {}; look at that and change it again",
                                based_on, revision_)};
   if (is_stale(edits, based_on))
-    return Refusal{
-        Refusal::Code::kStale,
-        fmt::format("{} changed it since revision {}: {}; look at it and change it again", by_, based_on, what_)};
+    return Refusal{Refusal::Code::kStale,
+                   fmt::format("{} changed it since revision {}: {}; look at it and change it again", by_, based_on,
+                               last_change(what_))};
   MissionTargets targets = targets_of(mission_);
   for (std::size_t n = 0; n < edits.size(); ++n) {
     const std::string problem = apply(targets, edits[n]);
@@ -199,8 +202,8 @@ void MissionDesk::shorten_history() {
 }
 
 Refusal MissionDesk::changed_since() const {
-  return {Refusal::Code::kStale, fmt::format("{} changed the targets meanwhile ({}); look at that, then try again", by_,
-                                             what_.empty() ? "all of them" : what_)};
+  return {Refusal::Code::kStale,
+          fmt::format("{} changed the targets meanwhile ({}); look at that, then try again", by_, last_change(what_))};
 }
 
 std::optional<Refusal> MissionDesk::undo(std::uint64_t based_on, const std::string& by) {

@@ -135,6 +135,14 @@ TEST(MissionDeskTest, A_change_of_a_revision_that_is_yet_to_come_is_told_which_i
   EXPECT_EQ(refusal->reason, "based_on: there is no revision 99; the newest is 1; look at that and change it again");
 }
 
+TEST(MissionDeskTest, A_change_of_a_revision_that_nobody_knows_any_more_is_told_that_all_may_be_new) {
+  MissionDesk desk(small_mission());
+  const std::vector<TargetEdit> edits{SetWeight{kEast, 2.0}};
+  const auto refusal = desk.edit(edits, 0, "Ana");
+  ASSERT_TRUE(refusal);
+  EXPECT_EQ(refusal->reason, "mission changed it since revision 0: all targets; look at it and change it again");
+}
+
 TEST(MissionDeskTest, Undo_and_redo_walk_through_all_changes_and_a_new_one_ends_redo) {
   MissionDesk desk(small_mission());
   const Mission first = desk.mission();
