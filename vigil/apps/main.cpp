@@ -170,7 +170,11 @@ CLI::App* add_replay(CLI::App& program, ReplayOptions& options) {
   command->add_option("--out", options.out, "Directory for a recording of the flight that would have been")
       ->check(not_empty());
   add_settings(command, options.settings);
+  const std::size_t others = command->get_options().size();
   add_console_options(command, options.console);
+  const std::vector<CLI::Option*> all = command->get_options();
+  for (std::size_t i = others; i < all.size(); ++i)
+    all[i]->each([&options](const std::string&) { options.asks_for_console = true; });
   command->add_flag("--json", options.json, "Print JSON instead of a text");
   command->footer(exit_codes("1 a tick differs or cannot be recomputed, ", false));
   return command;

@@ -124,8 +124,18 @@ class Recordings(unittest.TestCase):
         self.assertNotEqual(other["would_have"]["metric"]["last"], other["happened"]["metric"]["last"])
         code, verdict = verified(self.folder / "other")
         self.assertEqual((code, verdict["same"]), (0, 750), verdict)
-        self.assertEqual(run("replay", out, "--from", 30).returncode, 3)
-        self.assertEqual(run("replay", out, "--from", 5, "--set", "control.rate_hz=20").returncode, 3)
+        for wrong in ((30,), (-5,), ("nan",), ("inf",), (5, "--set", "control.rate_hz=20"), (5, "--port", 18123)):
+            result = run("replay", out, "--from", *wrong)
+            self.assertEqual((result.returncode, len(result.stderr.splitlines())), (2, 1), result.stderr)
+            self.assertNotIn("cannot be recomputed", result.stderr)
+        self.assertEqual(run("replay", out, "--verify", "--port", 8080).returncode, 2)
+        summary = json.loads((out / "summary.json").read_text())
+        for part in (same["happened"], same["would_have"]):
+            self.assertEqual(part["metric"]["first"], summary["metric"]["first"])
+            self.assertEqual((part["metric"]["percent_last"], part["complete"]), (summary["metric"]["percent_last"], True))
+            late = {at: percent for at, percent in summary["metric"]["percent_at"].items() if float(at) >= 5}
+            self.assertEqual(part["metric"]["percent_at"], late)
+            self.assertFalse({"tick_us", "worst_revisit_s"} & set(part))
 
     def test_a_velocity_is_explained_by_the_rows_that_made_it(self):
         out = self.simulated("crowd.yaml", "--seconds", 10)
@@ -140,7 +150,7 @@ class Recordings(unittest.TestCase):
         for told, column in (("u_nom_m_s", "nominal"), ("u_m_s", "command")):
             self.assertEqual(why[told], [float(row[f"{column}_x_m_s"]), float(row[f"{column}_y_m_s"])])
         self.assertIn("cf7", run("replay", out, "--why", "cf7").stdout)
-        for wrong in (("--why", "nobody"), ("--why", "cf7", "--at", 60), ("--at", 5), ("--why", "cf7", "--verify")):
+        for wrong in (("--why", "nobody"), ("--why", "cf7", "--at", 60), ("--why", "cf7", "--at", -1), ("--at", 5), ("--why", "cf7", "--verify")):
             result = run("replay", out, *wrong)
             self.assertEqual((result.returncode, len(result.stderr.splitlines())), (2, 1), result.stderr)
 

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <cstdio>
 #include <memory>
+#include <stdexcept>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -130,6 +131,24 @@ void print_for_people(const runtime::TwoFlights& two) {
   line("ticks with fall-back", number(a.fallback_ticks), number(b.fallback_ticks));
 }
 
+/// Without what is not measured when a flight is flown again.
+ordered_json rest_in_json(const runtime::FlightSummary& summary) {
+  ordered_json json = runtime::to_json(summary);
+  json.erase("tick_us");
+  json.erase("worst_revisit_s");
+  return json;
+}
+
+runtime::TwoFlights flown_on(const ReplayOptions& options, runtime::ReplayedFlight& flight,
+                             const runtime::Mission& mission, const runtime::ChangedMission& changed,
+                             runtime::VirtualFleet& fleet, runtime::Recorder* recorder) {
+  try {
+    return runtime::fly_on(flight, mission, changed, *options.from_s, fleet, recorder);
+  } catch (const std::invalid_argument& error) {
+    throw Failure(kBadInput, fmt::format("--from: {}", error.what()));
+  }
+}
+
 int print_two_flights(const ReplayOptions& options, runtime::ReplayedFlight& flight, const runtime::Mission& mission) {
   std::vector<runtime::Override> overrides;
   for (const std::string& setting : options.settings) overrides.push_back(runtime::parse_override(setting));
@@ -142,13 +161,12 @@ int print_two_flights(const ReplayOptions& options, runtime::ReplayedFlight& fli
     recorder.emplace(options.out, runtime::mission_yaml(changed(mission)));
   }
   const auto fleet = simulated_fleet(mission);
-  const runtime::TwoFlights two =
-      runtime::fly_on(flight, mission, changed, *options.from_s, *fleet, recorder ? &*recorder : nullptr);
+  const runtime::TwoFlights two = flown_on(options, flight, mission, changed, *fleet, recorder ? &*recorder : nullptr);
   if (recorder) recorder->finish();
   if (options.json)
     fmt::print("{}\n", ordered_json{{"from_s", two.from_s},
-                                    {"happened", runtime::to_json(two.happened)},
-                                    {"would_have", runtime::to_json(two.would_have)}}
+                                    {"happened", rest_in_json(two.happened)},
+                                    {"would_have", rest_in_json(two.would_have)}}
                            .dump(2));
   else
     print_for_people(two);
@@ -186,13 +204,25 @@ int print_reasons(const ReplayOptions& options, runtime::ReplayedFlight& flight,
   return kDone;
 }
 
+void check_moment(const char* option, std::optional<double> moment_s) {
+  if (moment_s && !(*moment_s >= 0.0 && std::isfinite(*moment_s)))
+    throw Failure(kBadInput, fmt::format("replay: {} {:g}: must be a moment of the recording, in seconds: 0 to its end",
+                                         option, *moment_s));
+}
+
 void check(const ReplayOptions& options) {
   const int asked = (options.verify ? 1 : 0) + (options.from_s ? 1 : 0) + (options.why.empty() ? 0 : 1);
   if (asked > 1)
     throw Failure(kBadInput,
                   "replay: give one of --verify, --from T with --set key=value, --why DRONE with --at T, or none");
   if (options.at_s && options.why.empty()) throw Failure(kBadInput, "replay: --at T belongs to --why DRONE");
+  check_moment("--from", options.from_s);
+  check_moment("--at", options.at_s);
   const bool shows = asked == 0;
+  if (!shows && options.asks_for_console)
+    throw Failure(kBadInput,
+                  "replay: --address, --port, --name, --tokens, --certificate, --key and --page are for seeing the "
+                  "recording in a browser; leave them out with --verify, --from and --why");
   if ((shows && options.json) || (!options.from_s && (!options.settings.empty() || !options.out.empty())))
     throw Failure(kBadInput,
                   "replay: --set and --out belong to --from T, --json to --verify, --from or --why; give one of these, "

@@ -19,7 +19,8 @@ struct ReplayOptions {
   std::optional<double> at_s;         ///< when; the end where absent
   std::filesystem::path out;          ///< for the flight that would have been; empty: it is not recorded
   bool json = false;
-  ConsoleOptions console;  ///< without verify and from_s
+  ConsoleOptions console;         ///< without verify, from_s and why
+  bool asks_for_console = false;  ///< any of its options was given
 };
 
 /// `vigil replay --verify`: recomputes every tick of a recording and compares what it decided, bit for bit. kDone where

@@ -48,6 +48,12 @@ SummaryBuilder::SummaryBuilder(const Mission& mission)
   summary_.barrier = name_of(mission.safety.barrier);
 }
 
+void SummaryBuilder::begin_at(double from_s, std::optional<double> first_metric) {
+  from_s_ = from_s;
+  summary_.first_metric = first_metric;
+  while (next_ask_ < ask_percent_at_s_.size() && ask_percent_at_s_[next_ask_] < from_s - 0.5 * dt_s_) ++next_ask_;
+}
+
 void SummaryBuilder::add(const swarm::Snapshot& snapshot, double tick_us) {
   ++summary_.ticks;
   tick_us_.push_back(static_cast<float>(tick_us));
@@ -71,11 +77,12 @@ FlightSummary SummaryBuilder::finish(const AuditTotals& audit,
   summary.goals = goals;
   summary.worst_revisit_s = std::move(worst_revisit_s);
   summary.duration_s = static_cast<double>(summary.ticks) * dt_s_;
+  const double end_s = from_s_ + summary.duration_s;
   const bool asks_for_the_end =
-      next_ask_ < ask_percent_at_s_.size() && ask_percent_at_s_[next_ask_] <= summary.duration_s + 0.5 * dt_s_;
+      next_ask_ < ask_percent_at_s_.size() && ask_percent_at_s_[next_ask_] <= end_s + 0.5 * dt_s_;
   if (summary.first_metric && asks_for_the_end)  // the last tick's velocities lead there
     summary.percent_at.emplace_back(ask_percent_at_s_[next_ask_], summary.last_percent);
-  summary.complete = summary.duration_s >= asked_duration_s_ - 0.5 * dt_s_;
+  summary.complete = end_s >= asked_duration_s_ - 0.5 * dt_s_;
   summary.tick_us_p50 = quantile(tick_us_, 0.5);
   summary.tick_us_p99 = quantile(tick_us_, 0.99);
   summary.tick_us_max = quantile(tick_us_, 1.0);

@@ -47,6 +47,10 @@ class SummaryBuilder {
  public:
   explicit SummaryBuilder(const Mission& mission);
 
+  /// Before the first add(): only what follows from this moment of the flight on is added. Nothing is told of moments
+  /// before it, duration_s is that of the rest, and `first_metric` is what the flight began with, where it had begun.
+  void begin_at(double from_s, std::optional<double> first_metric);
+
   void add(const swarm::Snapshot& snapshot, double tick_us);
   [[nodiscard]] FlightSummary finish(const AuditTotals& audit,
                                      std::vector<std::pair<std::string, double>> worst_revisit_s,
@@ -57,6 +61,7 @@ class SummaryBuilder {
   std::vector<double> ask_percent_at_s_;  ///< ascending; those before next_ask_ are answered
   std::size_t next_ask_ = 0;
   std::vector<float> tick_us_;
+  double from_s_ = 0.0;  ///< mission time before the first tick that is added
   double asked_duration_s_;
   double dt_s_;
 };

@@ -49,7 +49,10 @@ std::optional<CommandKind> wish_behind(Activity activity) {
 /// The flight from a moment on, judged.
 class Judged {
  public:
-  explicit Judged(const Mission& mission) : audit_(audit_limits(mission), mission.drones.size()), summary_(mission) {}
+  Judged(const Mission& mission, double from_s, std::optional<double> first_metric)
+      : audit_(audit_limits(mission), mission.drones.size()), summary_(mission) {
+    summary_.begin_at(from_s, first_metric);
+  }
 
   Clearances add(const swarm::Snapshot& snapshot, std::span<const TruthSample> truth) {
     summary_.add(snapshot, 0.0);
@@ -84,6 +87,7 @@ class FlyingOn {
       let_happen(tick);
       for (std::size_t i = 0; i < observations_.size(); ++i)
         if (!is_same(observations_[i], tick.observations[i])) refuse_other_world(i);
+      if (!first_metric_ && flight_.snapshot().has_metric) first_metric_ = flight_.snapshot().metric;
       obey(tick.snapshot);
     }
   }
@@ -94,8 +98,8 @@ class FlyingOn {
     flight_.state().write_past(*start.past);
     swarm::SwarmState state = state_for(first, start);
     if (recorder != nullptr) recorder->begin(first, start);
-    Judged happened(mission_);
-    Judged would_have(first);
+    Judged happened(mission_, from_s, first_metric_);
+    Judged would_have(first, from_s, first_metric_);
     std::vector<swarm::Command> commands = wishes_so_far();
     commands.push_back({.kind = CommandKind::kSetTarget, .drone = {}, .target = coverage_target(first, state.basis())});
     while (flight_.step()) {
@@ -151,7 +155,7 @@ class FlyingOn {
     const bool fits = state.parameters().drones == before.drones && is_same(state.parameters().dt_s, before.dt_s) &&
                       mission.field == mission_.field && state.read_past(*start.past);
     if (!fits)
-      throw std::runtime_error(
+      throw std::invalid_argument(
           "field, drones, control.rate_hz and control.basis_max_index hold for a whole flight: what was covered so far "
           "depends on them; simulate the mission with them from its beginning");
     return state;
@@ -188,6 +192,7 @@ class FlyingOn {
   std::vector<Vec2> places_;  ///< where each drone was last sent
   swarm::Snapshot snapshot_;
   double time_s_ = 0.0;
+  std::optional<double> first_metric_;  ///< of the flight, where it came before the change
 };
 
 }  // namespace
@@ -199,8 +204,8 @@ TwoFlights fly_on(ReplayedFlight& flight, const Mission& mission, const ChangedM
     throw std::runtime_error("only a recording of every tick, from the mission's beginning, can be flown on");
   const auto number = static_cast<std::uint64_t>(std::llround(std::clamp(from_s / dt_s, 0.0, 1e15)));
   if (number >= flight.tick_count())
-    throw std::runtime_error(fmt::format("the recording ends at {:g} s, before that moment",
-                                         static_cast<double>(flight.tick_count()) * dt_s));
+    throw std::invalid_argument(fmt::format("{:g} s: the recording ends at {:g} s; the moment must lie before that",
+                                            from_s, static_cast<double>(flight.tick_count()) * dt_s));
   FlyingOn flying(flight, mission, changed, fleet);
   flying.repeat(number);
   return flying.go_on(static_cast<double>(number) * dt_s, recorder);

@@ -25,8 +25,9 @@ using ChangedMission = std::function<Mission(const Mission& with_targets)>;
 /// seen then, bit for bit. From there the controller is another one that knows the coverage so far and what each drone
 /// was about; operators and the world do what they did. `mission`: as it began; `fleet`: its vehicles, before anything
 /// happened to them; `recorder`: of the flight that would have been, may be null; begun here, finished by the caller.
-/// Throws std::runtime_error, for people, where the recording cannot be recomputed up to there, where the simulator
-/// does not lead there, or where the change concerns what the past depends on.
+/// Throws, for people, std::invalid_argument where the recording ends before `from_s` or the change concerns what the
+/// past depends on, and std::runtime_error where the recording cannot be recomputed up to there or the simulator does
+/// not lead there. What the summaries say of the ticks' wall-clock time and of revisits was not measured.
 [[nodiscard]] TwoFlights fly_on(ReplayedFlight& flight, const Mission& mission, const ChangedMission& changed,
                                 double from_s, VirtualFleet& fleet, Recorder* recorder);
 

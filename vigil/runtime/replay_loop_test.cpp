@@ -109,6 +109,23 @@ TEST_F(ReplayLoopTest, Seeking_shows_the_last_tick_at_that_time_or_before) {
   EXPECT_EQ(shown().snapshot.tick, kTicks - 1);
 }
 
+TEST_F(ReplayLoopTest, From_its_end_it_goes_back_to_any_moment_also_before_it_has_come_to_the_end) {
+  for (const double time_s : {12.34, 0.0, 3.0, 13.98, 7.5}) {
+    order(LiveCommand::Kind::kSeek, time_s);
+    arrive();
+    EXPECT_NEAR(shown().snapshot.time_s, time_s, 1e-9);
+    EXPECT_FALSE(loop.is_seeking());
+  }
+  for (const double time_s : {0.0, 13.98, 7.5}) order(LiveCommand::Kind::kSeek, time_s);
+  arrive();
+  EXPECT_NEAR(shown().snapshot.time_s, 7.5, 1e-9);
+  order(LiveCommand::Kind::kSeek, 13.98);
+  loop.turn(now);
+  order(LiveCommand::Kind::kSeek, 7.5);
+  arrive();
+  EXPECT_NEAR(shown().snapshot.time_s, 7.5, 1e-9);
+}
+
 TEST_F(ReplayLoopTest, On_its_way_it_knows_which_share_of_it_is_behind) {
   pass(10ms);
   EXPECT_EQ(loop.progress(), 1.0);

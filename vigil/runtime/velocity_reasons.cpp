@@ -22,6 +22,8 @@ constexpr std::array<std::string_view, safety::kPriorities> kPriorityWords{"phys
                                                                            "margin", "doubt"};
 constexpr std::array<std::string_view, 4> kWalls{"left", "right", "bottom", "top"};
 
+constexpr double kAsWantedMS = 1e-12;  // rounding changes a wish by less
+
 /// A row whose normal has length 1, so that both sides are speeds.
 struct Row {
   safety::HoldingRow about;
@@ -106,7 +108,7 @@ std::string velocity_in_words(const Json& v) {
 std::string outcome_in_words(const Json& why) {
   if (why["fallback"].get<bool>()) return "  no velocity kept every row, nor without margins: the least violation\n";
   if (why["margin_used"].get<bool>()) return "  no velocity kept every row: margins gave way\n";
-  if (why["changed_m_s"].get<double>() < 1e-12) return "  as it was wanted\n";
+  if (why["changed_m_s"].get<double>() <= kAsWantedMS) return "  as it was wanted\n";
   return "";
 }
 
@@ -126,7 +128,7 @@ Json velocity_reasons_json(const swarm::SwarmState& state, swarm::DroneId drone,
           {"u_nom_m_s", in_json(frame.vector_to_world(why.u_nom))},
           {"u_m_s", in_json(frame.vector_to_world(why.u))},
           {"changed_m_s", why.report.correction_m_s},
-          {"speed_limited", why.report.speed_limited},
+          {"speed_limited", why.report.speed_limited && why.report.correction_m_s > kAsWantedMS},
           {"margin_used", why.report.margin_used},
           {"fallback", why.report.fallback},
           {"crowded", why.report.crowded},

@@ -93,9 +93,10 @@ void put_snapshot_arrays(FrameWriter& out, const runtime::LiveFrame& frame, doub
 void put_holding(FrameWriter& out, const runtime::LiveFrame& frame) {
   out.align();
   for (std::size_t i = 0; i < frame.snapshot.drones.size(); ++i) {
-    const safety::FilterReport& report = frame.snapshot.drones[i].filter;
-    for (const safety::HoldingRow& row :
-         std::span(report.holding).first(static_cast<std::size_t>(report.holding_count))) {
+    safety::FilterReport report = frame.snapshot.drones[i].filter;
+    const auto holding = std::span(report.holding).first(static_cast<std::size_t>(report.holding_count));
+    std::ranges::stable_sort(holding, {}, &safety::HoldingRow::distance_m);  // the filter has them as it met them
+    for (const safety::HoldingRow& row : holding) {
       out.put(as_u32(i));
       out.put(static_cast<std::uint32_t>(row.kind));
       out.put(static_cast<std::uint32_t>(row.index));

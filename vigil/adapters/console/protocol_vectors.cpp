@@ -62,7 +62,8 @@ runtime::LiveFrame flying() {
   covering.is_obstacle = true;
   covering.u_nom = {0.5, 0.0};
   covering.order = {swarm::Action::kVelocity, {0.25, 0.0}};
-  covering.filter.holding = {{{safety::RowKind::kNeighbour, 1, 0.375}, {safety::RowKind::kWall, 3, 0.5}}};
+  // As the filter met them; they go out nearest first.
+  covering.filter.holding = {{{safety::RowKind::kWall, 3, 0.5}, {safety::RowKind::kNeighbour, 1, 0.375}}};
   covering.filter.holding_count = 2;
   covering.filter.speed_limited = true;
   covering.filter.nearest = 1;
