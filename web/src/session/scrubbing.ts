@@ -1,6 +1,8 @@
 import type { Session } from './session';
 
-/** Seeks in a recording as fast as the program follows: one at a time, then the newest place that was wished. */
+/**
+ * Seeks in a recording as fast as the program follows: one at a time, then the newest place that was wished, also where
+ * the one before was refused. */
 export class Scrubbing {
   private isUnderWay = false;
   private next: number | null = null;
@@ -18,7 +20,7 @@ export class Scrubbing {
     while (this.next !== null) {
       const timeS = this.next;
       this.next = null;
-      if (!(await this.session.command({ type: 'seek', time_s: timeS }))) this.next = null;
+      await this.session.command({ type: 'seek', time_s: timeS });
     }
     this.isUnderWay = false;
   }

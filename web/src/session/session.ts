@@ -161,7 +161,8 @@ export class Session {
 
   /** Sends a command and says what became of it; true when it was accepted. */
   async command(command: Command, done?: string): Promise<boolean> {
-    if (this.isConnected.value && !this.isLive.value) {
+    // A recording follows also who sees it late: no drone is at stake.
+    if (this.isConnected.value && !this.isLive.value && !this.isRecording.value) {
       this.notify('warning', 'There is no fresh picture: nothing was sent. Landing and stopping motors still work.');
       return false;
     }

@@ -26,6 +26,17 @@ describe('session', () => {
     expect([session.mayOperate.value, session.mayTurnClock.value]).toEqual([false, true]);
   });
 
+  it('A recording is sought through also by who sees it late', async () => {
+    const { world, session, socket, sent } = begin();
+    socket.say({ ...kMission, fleet: 'REPLAY' });
+    world.pass(2000);
+    expect(session.isLive.value).toBe(false);
+    void session.command({ type: 'seek', time_s: 7.5 });
+    await settled();
+    expect(sent('seek')).toMatchObject([{ time_s: 7.5 }]);
+    expect(session.notices.value).toEqual([]);
+  });
+
   it('A staged edit asks for a ghost, and tells others what is edited', () => {
     const { session, sent, heavier } = begin();
     session.restage(stage(session.staging.value, { what: 'heavier', edits: [heavier] }, 1));
