@@ -72,12 +72,29 @@ class Picture:
         y = self.bottom - (place_m[1] + 1.5) / 3.0 * (self.bottom - self.top)
         return round(x), round(y)
 
-    def count(self, colour):
-        return sum(
-            self.is_like(x, y, colour)
+    def pixels(self, colour):
+        return [
+            (x, y)
             for y in range(self.top, self.bottom)
             for x in range(self.left, self.right)
-        )
+            if self.is_like(x, y, colour)
+        ]
+
+    def count(self, colour):
+        return len(self.pixels(colour))
+
+    def share_beyond(self, earlier, colour):
+        """Of a colour's pixels, those that are farther than some 8 from all of that colour in an earlier picture:
+        what was only hidden then, by a drone or its name, hardly counts."""
+        cell = 8
+        near = {
+            (x // cell + dx, y // cell + dy)
+            for x, y in earlier.pixels(colour)
+            for dx in (-1, 0, 1)
+            for dy in (-1, 0, 1)
+        }
+        now = self.pixels(colour)
+        return sum((x // cell, y // cell) not in near for x, y in now) / len(now)
 
     def redness(self, place_m, within_px=6):
         """The median red of the pixels around a place on which nothing but the density is drawn."""
@@ -92,16 +109,15 @@ class Picture:
 
 
 def once_drawn(name, colour):
-    """A picture in which there is as much of a colour as two seconds of the flight before: RViz lags behind on a busy
-    machine."""
+    """A picture in which a colour has got no farther for two seconds of the flight (a drone flies on by some 8 % of it):
+    RViz lags behind on a busy machine."""
     pictures = [Picture(name)]
 
     def is_drawn():
         taken_s = state()["time_s"]
         until(lambda: state()["time_s"] - taken_s >= 2, 10, "two seconds of the flight")
         pictures.append(Picture(name))
-        before, now = (picture.count(colour) for picture in pictures[-2:])
-        return abs(now - before) <= 0.005 * now
+        return pictures[-1].share_beyond(pictures[-2], colour) <= 0.02
 
     until(is_drawn, 40, f"RViz to draw all of {colour}")
     return pictures[-1]
@@ -149,8 +165,8 @@ class TheLaboratory(unittest.TestCase):
         for colour in GREENS:
             self.assertGreater(picture.count(colour), 150, colour)
         # The landed drone's trail has ended, the others' go on.
-        self.assertLessEqual(picture.count(GREENS[1]), 1.05 * self.landed.count(GREENS[1]))
-        self.assertGreater(picture.count(GREENS[0]), 1.2 * self.landed.count(GREENS[0]))
+        self.assertLessEqual(picture.share_beyond(self.landed, GREENS[1]), 0.05)
+        self.assertGreater(picture.share_beyond(self.landed, GREENS[0]), 0.2)
 
     def test_05_red_fades_with_the_density(self):
         near, far = [], []
