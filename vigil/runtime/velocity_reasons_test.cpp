@@ -73,14 +73,12 @@ TEST_F(VelocityReasons, Every_row_is_kept_and_those_that_hold_are_tight) {
 TEST_F(VelocityReasons, The_speed_limit_is_named_only_where_it_changed_something_beyond_rounding) {
   constexpr double kRounding = 1e-12;
   std::size_t touched = 0;
-  std::size_t limited = 0;
   while (flight_.step()) {
     for (std::size_t drone = 0; drone < mission_.drones.size(); ++drone) {
       const bool is_changed = why(drone)["changed_m_s"].get<double>() > kRounding;
       const bool is_on_disk = flight_.state().explain(swarm::DroneId(drone)).report.speed_limited;
       EXPECT_EQ(why(drone)["speed_limited"].get<bool>(), is_on_disk && is_changed);
       touched += is_on_disk && !is_changed ? 1U : 0U;
-      limited += is_on_disk && is_changed ? 1U : 0U;
     }
   }
   EXPECT_GT(touched, 0U);

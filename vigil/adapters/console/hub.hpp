@@ -180,6 +180,7 @@ class Hub {
   void take(const DeskAnswer& news);
   void take(const OrdersKept& news);
   void take(const PreviewNews& news);
+  void hear_all(const std::vector<runtime::LiveEvent>& events);
   void hear(const runtime::LiveEvent& event);
   void hear_swarm(const runtime::LiveEvent& event);
   void hear_script(const runtime::LiveEvent& event);

@@ -235,14 +235,26 @@ void Hub::keep_event(Json event) {
 
 void Hub::send_events() {
   if (new_events_.empty()) return;
-  // An edit of the file's size, or a swarm that drops out, must not make one huge message.
-  for (std::size_t first = 0; first < new_events_.size(); first += kKeptEvents) {
+  // A swarm that drops out must not make one huge message, which on a slow way is read when all of it has come.
+  constexpr std::size_t kMostAtOnce = 32;
+  for (std::size_t first = 0; first < new_events_.size(); first += kMostAtOnce) {
     const auto begin = new_events_.begin() + static_cast<std::ptrdiff_t>(first);
     const auto end =
-        new_events_.begin() + static_cast<std::ptrdiff_t>(std::min(first + kKeptEvents, new_events_.size()));
+        new_events_.begin() + static_cast<std::ptrdiff_t>(std::min(first + kMostAtOnce, new_events_.size()));
     say_to_all(events_json({begin, end}));
   }
   new_events_.clear();
+}
+
+/// What was ordered is told before what came of it: who waits for a confirmation does not wait for a thousand landings.
+void Hub::hear_all(const std::vector<LiveEvent>& events) {
+  const auto is_of_an_order = [](const LiveEvent& event) {
+    return event.kind == LiveEvent::Kind::kAnswer || event.kind == LiveEvent::Kind::kRefusal;
+  };
+  for (const LiveEvent& event : events)
+    if (is_of_an_order(event)) hear(event);
+  for (const LiveEvent& event : events)
+    if (!is_of_an_order(event)) hear(event);
 }
 
 void Hub::hear(const LiveEvent& event) {
@@ -362,7 +374,7 @@ void Hub::poll() {
   keep_orders();
   flight_->read(clock_, clock_version_);
   if (now >= next_snapshot_) send_snapshot(now);
-  for (const LiveEvent& event : flight_->take_events()) hear(event);
+  hear_all(flight_->take_events());
   answer_pending(now);
   send_events();
   if (now >= next_status_) {

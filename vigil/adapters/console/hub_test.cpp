@@ -232,6 +232,17 @@ TEST(HubTest, To_hold_or_resume_all_leaves_a_drone_marked_failed) {
   EXPECT_NE(console.newest().snapshot.drones[1].activity, swarm::Activity::kMarkedFailed);
 }
 
+TEST(HubTest, What_was_ordered_is_told_before_what_came_of_it) {
+  ConsoleForTests console;
+  console.fly();
+  const Visitor ana = console.join();
+  console.ask(ana, {{"type", "land_all"}, {"id", 1}}, 200ms);
+  const Json ordered = ana.line->event("land_all");
+  const Json landing = ana.line->event("landing", "a");
+  ASSERT_FALSE(ordered.is_null() || landing.is_null());
+  EXPECT_LT(ordered.at("number"), landing.at("number"));
+}
+
 TEST(HubTest, An_event_counts_the_drones_that_cover_after_it) {
   ConsoleForTests console;
   console.fly();
