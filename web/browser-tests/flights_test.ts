@@ -51,6 +51,8 @@ describe('a restarted program', () => {
     for (const drone of program.drones) drone.activity = held;
     program.sayStatus({ waits_for_resume: true });
     await played.page.getByText('It has its mission, targets and coverage back').waitFor();
+    // Until the page has seen that they hold.
+    await played.page.getByRole('button', { name: 'Resume those that hold', disabled: false }).waitFor();
     program.drones[0]!.activity = 0;
     program.sayStatus({ waits_for_resume: false });
     await played.page.getByText('2 of 3 drones hold since then: d2, d3.').waitFor();
