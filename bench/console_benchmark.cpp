@@ -1,7 +1,8 @@
 // What the operator's console asks of a busy machine: `vigil serve` flies a thousand drones at 50 Hz while twenty
 // WebSocket clients look on, each of them commands drones five times a second, and two processes do nothing but keep
 // two cores busy. How soon are commands answered, do they take effect at the next tick, and how late do ticks begin,
-// with real-time priority for the control thread and without?
+// with real-time priority for the control thread and without? Beside it a bare thread of the same priority tells how
+// late the machine lets anybody begin.
 
 #include <algorithm>
 #include <array>
@@ -22,6 +23,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "bare_thread.hpp"
 #include "live_client.hpp"
 #include "served_program.hpp"
 
@@ -35,6 +37,7 @@ using namespace std::chrono_literals;
 constexpr std::size_t kClients = 20;
 constexpr std::size_t kDrones = 1000;
 constexpr std::size_t kBusyProcesses = 2;
+constexpr auto kTick = 20ms;
 constexpr double kTickMs = 20.0;
 constexpr auto kCommandEvery = 200ms;  // of each client
 constexpr std::chrono::seconds kTold = 20s;
@@ -268,6 +271,12 @@ void report(benchmark::State& state, const Seen& seen, const ServedProgram& prog
   state.counters["nice"] = ::getpriority(PRIO_PROCESS, 0);
 }
 
+void report(benchmark::State& state, const runtime::LatenessFigures& bare) {
+  state.counters["bare_p99_ms"] = 1e-3 * bare.p99_us;
+  state.counters["bare_p999_ms"] = 1e-3 * bare.p999_us;
+  state.counters["bare_max_ms"] = 1e-3 * bare.max_us;
+}
+
 /// The busy machine of the title, for so many seconds.
 void serve(benchmark::State& state, const std::string& mission, bool has_priority, std::chrono::seconds time) {
   const ServedProgram program(VIGIL_PROGRAM, mission, has_priority);
@@ -278,6 +287,7 @@ void serve(benchmark::State& state, const std::string& mission, bool has_priorit
   std::vector<Child> busy;
   for (std::size_t i = 0; i < kBusyProcesses; ++i) busy.push_back(spin());
   crowd.begin(time);
+  BareThread bare(kTick, has_priority);
   const std::uint64_t first = crowd.seen().last.tick;
   const auto began = Clock::now();
   crowd.watch(after(time), true);
@@ -285,6 +295,7 @@ void serve(benchmark::State& state, const std::string& mission, bool has_priorit
   const double ticks = static_cast<double>(crowd.seen().last.tick - first);
   require(ticks * kTickMs >= 0.98 * 1000.0 * seconds - 100.0, "the flight does not keep up with real time");
   report(state, crowd.seen(), program, seconds);
+  report(state, bare.end());
 }
 
 void Serve(benchmark::State& state) {

@@ -36,8 +36,13 @@ const world: World = {
   random: Math.random,
 };
 
+/** By which the program knows this page again when it connects anew, and lets its older connection go. */
+const kPage = Array.from(crypto.getRandomValues(new Uint8Array(16)), (byte) => byte.toString(16).padStart(2, '0')).join(
+  '',
+);
+
 function identityOf(name: string, token: string, role: string): Record<string, unknown> {
-  return { ...(name ? { name } : {}), ...(token ? { token } : {}), ...(role ? { role } : {}) };
+  return { page: kPage, ...(name ? { name } : {}), ...(token ? { token } : {}), ...(role ? { role } : {}) };
 }
 
 function makeApp(): App {

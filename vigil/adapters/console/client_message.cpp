@@ -51,9 +51,19 @@ std::string name_in(const JsonReader& reader) {
   return name;
 }
 
+/// Too long to be met by chance, and not guessed.
+std::string page_in(const JsonReader& reader) {
+  constexpr std::size_t kPageBytes = 32;
+  std::string page = reader.text("page", kPageBytes);
+  const auto is_hex = [](char c) { return (c >= '0' && c <= '9') || (c >= 'a' && c <= 'f'); };
+  if (page.size() != kPageBytes || !std::ranges::all_of(page, is_hex))
+    reader.refuse("page", "must be 32 digits of 0-9 and a-f, drawn at random when the page was opened");
+  return page;
+}
+
 Hello hello_in(const JsonReader& reader) {
   constexpr std::size_t kMostTokenBytes = 512;
-  reader.allow_only({"type", "name", "token", "role", "confirms"});
+  reader.allow_only({"type", "name", "token", "role", "confirms", "page"});
   Hello hello;
   if (reader.has("name")) hello.name = name_in(reader);
   if (reader.has("token")) hello.token = reader.text("token", kMostTokenBytes);
@@ -62,6 +72,7 @@ Hello hello_in(const JsonReader& reader) {
     if (!hello.role) reader.refuse("role", fmt::format("must be one of: {}", fmt::join(kRoleWords, ", ")));
   }
   if (reader.has("confirms")) hello.confirms = reader.flag("confirms");
+  if (reader.has("page")) hello.page = page_in(reader);
   return hello;
 }
 

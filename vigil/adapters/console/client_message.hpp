@@ -25,6 +25,8 @@ struct Hello {
   std::string token;
   std::optional<Role> role;
   bool confirms = false;
+  /// The page's own mark, the same over all its connections; empty where it has none.
+  std::string page;
 };
 /// How many messages have come to the client since its connection began; not answered.
 struct Confirm {

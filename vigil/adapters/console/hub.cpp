@@ -157,12 +157,22 @@ void Hub::refuse_message(ClientId id, std::string_view code, std::string_view re
   client.line->say(std::make_shared<const std::string>(in_text(refused_json(refusal))));
 }
 
+/// A page that connects anew has lost the connection that it had, which the network may take long to notice.
+void Hub::replace(const std::string& page) {
+  if (page.empty()) return;
+  std::vector<ClientId> lost;
+  for (const auto& [id, client] : clients_)
+    if (client.page == page) lost.push_back(id);
+  for (const ClientId id : lost) part_with(id, "replaced", "the page has another connection now");
+}
+
 void Hub::greet(Client& client, const Hello& hello) {
   if (client.has_said_hello) return refuse_message(client.who.client, "malformed", "hello was said already");
   const std::optional<Role> role = role_for(hello.token);
   if (!role)
     return part_with(client.who.client, "bad_token", "this token opens nothing; ask who runs the server for one");
   const Role wished = hello.role ? std::min(*hello.role, *role) : *role;
+  replace(hello.page);
   const auto known = std::ranges::count_if(clients_, [](const auto& one) { return one.second.has_said_hello; });
   if (static_cast<std::size_t>(known) >= places_for(wished))
     return part_with(
@@ -170,6 +180,7 @@ void Hub::greet(Client& client, const Hello& hello) {
         fmt::format("full: {} comes in while fewer than {} are here; close other pages, or try again later",
                     name_of(wished), places_for(wished)));
   client.has_said_hello = true;
+  client.page = hello.page;
   client.who.role = wished;
   client.who.name = name_or(hello.name, client.who.client);
   if (hello.confirms) client.line->pace();

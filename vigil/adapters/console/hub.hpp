@@ -119,6 +119,7 @@ class Hub {
     std::size_t refused_for_rate = 0;
     /// The ticket of its newest preview; the desk looks at it, too.
     std::shared_ptr<std::atomic<std::uint64_t>> newest_preview = std::make_shared<std::atomic<std::uint64_t>>(0);
+    std::string page = {};  ///< see Hello
   };
   /// A command that waits for its answer.
   struct Waiting {
@@ -146,6 +147,7 @@ class Hub {
   static bool confirms(const Client& client, const std::variant<ClientMessage, MessageRefusal>& parsed);
   void hear(Client& client, std::variant<ClientMessage, MessageRefusal> parsed);
   void greet(Client& client, const Hello& hello);
+  void replace(const std::string& page);
   void show_everything(Client& client);
   void part_with(ClientId id, std::string_view code, std::string_view reason);
   void execute(const ClientMessage& message, const Author& author, Reply reply);

@@ -233,7 +233,8 @@ Json frames() {
 const std::vector<std::pair<std::string, std::string>>& client_texts() {
   static const std::vector<std::pair<std::string, std::string>> kTexts{
       {"hello", R"({"type":"hello"})"},
-      {"hello with all", R"({"type":"hello","name":"Ana","token":"0123456789abcdef","role":"viewer","confirms":true})"},
+      {"hello with all",
+       R"({"type":"hello","name":"Ana","token":"0123456789abcdef","role":"viewer","confirms":true,"page":"00112233445566778899aabbccddeeff"})"},
       {"confirm", R"({"type":"confirm","received":123})"},
       {"ping", R"({"type":"ping","id":1})"},
       {"land some", R"({"type":"land","id":2,"drones":["a","b"]})"},
@@ -282,6 +283,8 @@ const std::vector<std::pair<std::string, std::string>>& client_texts() {
       {"an epoch that is no number", R"({"type":"land","id":29,"epoch":"3","drones":"all"})"},
       {"nobody", R"({"type":"land","id":1,"drones":[]})"},
       {"wrong word for all", R"({"type":"land","id":1,"drones":"everybody"})"},
+      {"a page\'s mark that can be guessed", R"({"type":"hello","page":"1"})"},
+      {"a page\'s mark that is none", R"({"type":"hello","page":"00112233445566778899AABBCCDDEEFF"})"},
       {"unknown role", R"({"type":"hello","role":"admiral"})"},
       {"empty name", R"({"type":"hello","name":""})"},
       {"no edits", R"({"type":"edit","id":1,"based_on":7,"edits":[]})"},
