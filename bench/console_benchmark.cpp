@@ -1,8 +1,8 @@
 // What the operator's console asks of a busy machine: `vigil serve` flies a thousand drones at 50 Hz while twenty
 // WebSocket clients look on, each of them commands drones five times a second, and two processes do nothing but keep
 // two cores busy. How soon are commands answered, do they take effect at the next tick, and how late do ticks begin,
-// with real-time priority for the control thread and without? Beside it a bare thread of the same priority tells how
-// late the machine lets anybody begin.
+// with real-time priority for the control thread and without, with --state, where an order is answered when it is on
+// the disk, and without? Beside it a bare thread of the same priority tells how late the machine lets anybody begin.
 
 #include <algorithm>
 #include <array>
@@ -278,8 +278,10 @@ void report(benchmark::State& state, const runtime::LatenessFigures& bare) {
 }
 
 /// The busy machine of the title, for so many seconds.
-void serve(benchmark::State& state, const std::string& mission, bool has_priority, std::chrono::seconds time) {
-  const ServedProgram program(VIGIL_PROGRAM, mission, has_priority);
+void serve(benchmark::State& state, const std::string& mission, const std::string& state_folder) {
+  const bool has_priority = state.range(0) == 1;
+  const std::chrono::seconds time(state.range(2));
+  const ServedProgram program(VIGIL_PROGRAM, mission, has_priority, state.range(1) == 1 ? state_folder : "");
   Crowd crowd(program.port());
   verify(crowd);
   require(program.has_priority() == has_priority,
@@ -299,21 +301,23 @@ void serve(benchmark::State& state, const std::string& mission, bool has_priorit
 }
 
 void Serve(benchmark::State& state) {
-  const std::string mission =
-      std::filesystem::temp_directory_path() / fmt::format("vigil-console-benchmark-{}.yaml", ::getpid());
+  const std::filesystem::path folder =
+      std::filesystem::temp_directory_path() / fmt::format("vigil-console-benchmark-{}", ::getpid());
+  std::filesystem::create_directory(folder);
+  const std::filesystem::path mission = folder / "mission.yaml";
   std::ofstream(mission) << kMission;
   for (auto _ : state) {
     try {
-      serve(state, mission, state.range(0) == 1, std::chrono::seconds(state.range(1)));
+      serve(state, mission, folder / "state");
     } catch (const std::runtime_error& error) {
       state.SkipWithError(error.what());
     }
   }
-  std::filesystem::remove(mission);
+  std::filesystem::remove_all(folder);
 }
 BENCHMARK(Serve)
-    ->ArgNames({"realtime", "seconds"})
-    ->ArgsProduct({{1, 0}, {3, 60}})
+    ->ArgNames({"realtime", "state", "seconds"})
+    ->ArgsProduct({{1, 0}, {0, 1}, {3, 60}})
     ->Iterations(1)
     ->UseRealTime()
     ->Unit(benchmark::kSecond);

@@ -13,6 +13,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 #include <utility>
+#include <vector>
 
 #include <fmt/format.h>
 
@@ -34,14 +35,20 @@ void forgo_priority() {
 }
 
 /// Starts the program; `output` becomes where its output can be read.
-Child start(const std::string& program, const std::string& mission, bool may_have_priority, int& output) {
+Child start(const std::string& program, const std::string& mission, bool may_have_priority,
+            const std::string& state_folder, int& output) {
   std::array<int, 2> pipe{};
   if (::pipe(pipe.data()) != 0) throw std::runtime_error("no pipe is to be had");
   const pid_t pid = fork_or_throw();
   if (pid == 0) {
     if (!may_have_priority) forgo_priority();
     ::dup2(pipe[1], STDOUT_FILENO);
-    ::execl(program.c_str(), program.c_str(), "serve", mission.c_str(), "--port", "0", nullptr);
+    std::vector<std::string> words{program, "serve", mission, "--port", "0"};
+    if (!state_folder.empty()) words.insert(words.end(), {"--state", state_folder});
+    std::vector<char*> arguments;
+    for (std::string& word : words) arguments.push_back(word.data());
+    arguments.push_back(nullptr);
+    ::execv(program.c_str(), arguments.data());
     std::_Exit(127);
   }
   ::close(pipe[1]);
@@ -80,8 +87,10 @@ Child spin() {
   return Child(pid);
 }
 
-ServedProgram::ServedProgram(const std::string& program, const std::string& mission, bool may_have_priority)
-    : child_(start(program, mission, may_have_priority, output_)), port_(port_in(first_line_of(output_))) {}
+ServedProgram::ServedProgram(const std::string& program, const std::string& mission, bool may_have_priority,
+                             const std::string& state_folder)
+    : child_(start(program, mission, may_have_priority, state_folder, output_)),
+      port_(port_in(first_line_of(output_))) {}
 
 bool ServedProgram::has_priority() const {
   for (const auto& task : std::filesystem::directory_iterator(fmt::format("/proc/{}/task", child_.pid())))

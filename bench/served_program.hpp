@@ -28,9 +28,10 @@ class Child {
 /// `vigil serve` on a free port of 127.0.0.1. To be called while the benchmark has one thread.
 class ServedProgram {
  public:
-  /// Without `may_have_priority` the system gives it no real-time priority, as a user without privileges. Throws
-  /// std::runtime_error where it does not come up.
-  ServedProgram(const std::string& program, const std::string& mission, bool may_have_priority);
+  /// Without `may_have_priority` the system gives it no real-time priority, as a user without privileges. It keeps its
+  /// state in `state_folder`, unless that is empty. Throws std::runtime_error where it does not come up.
+  ServedProgram(const std::string& program, const std::string& mission, bool may_have_priority,
+                const std::string& state_folder);
 
   [[nodiscard]] std::uint16_t port() const { return port_; }
   /// Whether one of its threads has real-time priority.
