@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <charconv>
 
+#include <fmt/format.h>
+
 namespace vigil::console {
 namespace {
 
@@ -23,33 +25,37 @@ std::optional<std::string> decoded(std::string_view text) {
   return plain;
 }
 
-/// The encoded values of the name, in order, until `take` returns false.
-template <typename Take>
-void each_value(std::string_view query, std::string_view name, Take take) {
-  while (!query.empty()) {
-    const std::string_view part = query.substr(0, query.find('&'));
-    query.remove_prefix(std::min(query.size(), part.size() + 1));
-    const std::size_t equals = part.find('=');
-    if (equals == std::string_view::npos || part.substr(0, equals) != name) continue;
-    if (!take(part.substr(equals + 1))) return;
-  }
+/// Takes the first "name=value" away from the rest.
+std::string_view take_part(std::string_view& query) {
+  const std::string_view part = query.substr(0, query.find('&'));
+  query.remove_prefix(std::min(query.size(), part.size() + 1));
+  return part;
 }
 
 }  // namespace
 
 std::optional<std::string> query_value(std::string_view query, std::string_view name) {
-  std::optional<std::string> value;
-  each_value(query, name, [&value](std::string_view encoded) {
-    value = decoded(encoded);
-    return false;
-  });
-  return value;
+  while (!query.empty()) {
+    const std::string_view part = take_part(query);
+    const std::size_t equals = part.find('=');
+    if (equals != std::string_view::npos && part.substr(0, equals) == name) return decoded(part.substr(equals + 1));
+  }
+  return std::nullopt;
 }
 
-bool names_twice(std::string_view query, std::string_view name) {
-  std::size_t values = 0;
-  each_value(query, name, [&values](std::string_view) { return ++values < 2; });
-  return values == 2;
+std::string query_problem(std::string_view query, std::string_view known) {
+  constexpr std::size_t kMostShown = 40;
+  for (bool is_seen = false; !query.empty();) {
+    const std::string_view part = take_part(query);
+    const std::string_view name = part.substr(0, part.find('='));
+    if (name.empty()) continue;
+    if (name != known)
+      return fmt::format("{}: is not known here; {}", name.substr(0, kMostShown),
+                         known.empty() ? "this path takes no query" : fmt::format("known is {}", known));
+    if (is_seen) return fmt::format("{}: is there twice; give it once", name);
+    is_seen = true;
+  }
+  return {};
 }
 
 }  // namespace vigil::console

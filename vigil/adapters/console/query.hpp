@@ -10,7 +10,8 @@ namespace vigil::console {
 /// None where the name is not there, or where a percent sign is not followed by two hexadecimal digits.
 [[nodiscard]] std::optional<std::string> query_value(std::string_view query, std::string_view name);
 
-/// Whether the name has more than one value in the query.
-[[nodiscard]] bool names_twice(std::string_view query, std::string_view name);
+/// What is wrong with the names in a query, for people; empty where nothing is. A query may have one name once:
+/// `known`, or none where that is empty.
+[[nodiscard]] std::string query_problem(std::string_view query, std::string_view known);
 
 }  // namespace vigil::console

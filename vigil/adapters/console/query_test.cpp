@@ -13,11 +13,14 @@ TEST(Query, Gives_the_value_of_a_name_and_nothing_of_the_others) {
   EXPECT_EQ(query_value("", "drone"), std::nullopt);
 }
 
-TEST(Query, Tells_a_name_that_is_there_twice) {
-  EXPECT_TRUE(names_twice("drone=a&x=1&drone=b", "drone"));
-  EXPECT_TRUE(names_twice("drone=a&drone=a", "drone"));
-  EXPECT_FALSE(names_twice("drone=a&my_drone=b&drone", "drone"));
-  EXPECT_FALSE(names_twice("", "drone"));
+TEST(Query, A_name_that_is_unknown_or_there_twice_is_a_problem) {
+  for (const char* query : {"", "&", "drone=a", "drone=a&", "drone", "drone=my=drone"})
+    EXPECT_EQ(query_problem(query, "drone"), "") << query;
+  EXPECT_EQ(query_problem("drone=a&drone=b", "drone"), "drone: is there twice; give it once");
+  EXPECT_EQ(query_problem("drone=a&drone", "drone"), "drone: is there twice; give it once");
+  EXPECT_EQ(query_problem("drone=a&my_drone=b", "drone"), "my_drone: is not known here; known is drone");
+  EXPECT_EQ(query_problem("drone=a", ""), "drone: is not known here; this path takes no query");
+  EXPECT_LT(query_problem(std::string(100'000, 'x'), "").size(), 100U);
 }
 
 TEST(Query, Percent_signs_are_decoded) {

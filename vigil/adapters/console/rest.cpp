@@ -1,5 +1,8 @@
 #include "vigil/adapters/console/rest.hpp"
 
+#include <algorithm>
+#include <array>
+
 #include <fmt/format.h>
 
 #include "vigil/adapters/console/areas_geojson.hpp"
@@ -49,6 +52,18 @@ HttpAnswer not_found() {
 }
 
 HttpAnswer nothing_flies() { return refusal(503, "not_now", "nothing is flown yet; try again"); }
+
+struct Path {
+  std::string_view name;
+  std::string_view query;  ///< the one name that a query may have; empty: none
+};
+
+constexpr std::array<Path, 6> kPaths{{{"/api/state", ""},
+                                      {"/api/mission", "format"},
+                                      {"/api/areas", ""},
+                                      {"/api/commands", ""},
+                                      {"/api/preview", ""},
+                                      {"/api/why", "drone"}}};
 
 constexpr std::string_view kNotBuilt =
     "<!doctype html><html lang=\"en\"><meta charset=\"utf-8\"><title>vigil</title><body><h1>vigil is "
@@ -100,6 +115,10 @@ void Rest::answer_api(const HttpRequest& request, const std::string& path, const
     return reply(std::move(answer));
   }
   if (request.body.size() > kMostMessageBytes) return reply(too_large());
+  const auto known = std::ranges::find(kPaths, path, &Path::name);
+  if (known == kPaths.end()) return reply(not_found());
+  if (const std::string problem = query_problem(query, known->query); !problem.empty())
+    return reply(refusal(400, "malformed", problem));
   const bool is_get = request.method == "GET";
   const bool is_post = request.method == "POST";
   if (is_post && !gate_.admits_origin(request.origin, request.host))
@@ -116,9 +135,7 @@ void Rest::answer_api(const HttpRequest& request, const std::string& path, const
   if (path == "/api/commands" && is_post) return answer_command(parse_client_message(request.body), *role, reply);
   if (path == "/api/preview" && is_post) return answer_command(parse_preview(request.body), *role, reply);
   if (path == "/api/why" && is_get) return explain(query, *role, reply);
-  for (const char* known : {"/api/state", "/api/mission", "/api/areas", "/api/commands", "/api/preview", "/api/why"})
-    if (path == known) return reply(refusal(405, "wrong_method", "see protocol/openapi.json"));
-  reply(not_found());
+  reply(refusal(405, "wrong_method", "see protocol/openapi.json"));
 }
 
 HttpAnswer Rest::areas() const {
@@ -131,7 +148,9 @@ HttpAnswer Rest::areas() const {
 HttpAnswer Rest::mission(const HttpRequest& request, const std::string& query) const {
   const runtime::Mission* mission = hub_.mission();
   if (mission == nullptr) return nothing_flies();
-  const bool wants_yaml = query == "format=yaml" || request.accept.find("yaml") != std::string::npos;
+  const std::optional<std::string> format = query_value(query, "format");
+  if (format && format != "yaml") return refusal(400, "malformed", "format: must be yaml; leave it out for JSON");
+  const bool wants_yaml = format || request.accept.find("yaml") != std::string::npos;
   if (!wants_yaml) return json_answer(200, mission_json(*mission));
   return {200, "application/yaml", shared(runtime::mission_yaml(*mission)), {{"Cache-Control", "no-store"}}};
 }
@@ -151,8 +170,6 @@ void Rest::explain(const std::string& query, Role role, const Reply& reply) {
   if (!hub_.has_ticked()) return reply(nothing_flies());
   const std::optional<std::string> drone = query_value(query, "drone");
   if (!drone) return reply(refusal(400, "malformed", "say of which drone: /api/why?drone=ID"));
-  if (names_twice(query, "drone"))
-    return reply(refusal(400, "malformed", "drone stands there twice; ask for one at a time: /api/why?drone=ID"));
   answer_command(ClientMessage{0, "why", Why{*drone}}, role, reply);
 }
 

@@ -99,8 +99,22 @@ TEST_F(RestTest, Why_is_answered_for_one_drone_at_a_time) {
   console.pass(100ms);
   const HttpAnswer answer = ask(get("/api/why?drone=a&drone=b"));
   EXPECT_EQ(answer.status, 400);
-  EXPECT_NE(answer.body->find("one at a time"), std::string::npos);
+  EXPECT_NE(answer.body->find("drone: is there twice"), std::string::npos);
   EXPECT_EQ(status(get("/api/why?drone=a")), 200);
+}
+
+TEST_F(RestTest, A_query_that_is_not_known_is_refused_and_nothing_is_done) {
+  console.fly();
+  console.pass(100ms);
+  for (const char* target : {"/api/state?drone=a", "/api/areas?format=yaml", "/api/mission?format=json",
+                             "/api/mission?form=yaml", "/api/mission?format=yaml&format=yaml", "/api/why?drones=a"})
+    EXPECT_EQ(json(get(target)).at("code"), "malformed") << target;
+  HttpRequest request = command({{"type", "land_all"}, {"id", 1}});
+  request.target += "?really=no";
+  EXPECT_EQ(status(request), 400);
+  console.pass(100ms);
+  EXPECT_EQ(json(get("/api/state")).at("active"), 3);
+  EXPECT_EQ(status(get("/api/mission?format=yaml")), 200);
 }
 
 TEST_F(RestTest, The_state_is_the_swarms_in_the_world_frame) {
@@ -310,7 +324,8 @@ TEST_F(LockedRestTest, Every_answer_that_is_described_is_given_and_no_other) {
   ask(with(command({{"type", "hold"}, {"id", 1}, {"drones", {"x"}}}), anybody));
   ask(with(command({{"type", "take_off"}, {"id", 1}, {"drones", {"a"}}}), anybody));
   ask(with(preview({{"without", {"x"}}}), anybody));
-  for (const char* target : {"/api/why", "/api/why?drone=x"}) ask(with(get(target), viewer));
+  for (const char* target : {"/api/why", "/api/why?drone=x", "/api/state?x", "/api/areas?x", "/api/mission?x"})
+    ask(with(get(target), viewer));
   const Json edit{{"op", "set_uniform_floor"}, {"uniform_floor", 0.1}};
   ask(with(preview({{"edits", {edit}}, {"based_on", 99}}), anybody));
   console.most_tasks = 0;  // the desk has no time
