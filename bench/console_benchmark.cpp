@@ -40,8 +40,7 @@ constexpr std::size_t kBusyProcesses = 2;
 constexpr auto kTick = 20ms;
 constexpr double kTickMs = 20.0;
 constexpr auto kCommandEvery = 200ms;  // of each client
-constexpr std::chrono::seconds kTold = 20s;
-constexpr std::uint8_t kHeld = 12;  // an activity of the protocol
+constexpr std::uint8_t kHeld = 12;     // an activity of the protocol
 
 constexpr const char* kMission = R"(format: 1
 name: a thousand drones
@@ -110,10 +109,7 @@ class Schedule {
 struct Seen {
   std::vector<double> acks_ms;
   std::vector<std::int64_t> ticks_late;  ///< after the next tick
-  double late_p50_us = 0.0;
-  double late_p99_us = 0.0;  ///< of the worst 10 to 20 s, this and the next
-  double late_p999_us = 0.0;
-  double late_max_us = 0.0;
+  json lateness_us;                      ///< since the flight began
   std::size_t snapshots = 0;
   SnapshotSeen last;
 };
@@ -146,12 +142,10 @@ class Crowd {
 
   [[nodiscard]] Seen& seen() { return seen_; }
   [[nodiscard]] std::uint8_t activity_of(std::size_t drone) const { return activity_in(newest_, drone); }
-  /// Forgets what was seen but the newest snapshot, and lets commands be due from now on, for so long.
-  void begin(std::chrono::seconds time) {
-    // The program tells of its last 10 to 20 s: before that its start is among them.
-    settles_ = time > 2 * kTold ? kTold : 0s;
-    seen_ = Seen{{}, {}, 0.0, 0.0, 0.0, 0.0, 0, seen_.last};
-    began_ = next_command_ = Clock::now();
+  /// Forgets what was seen but the newest snapshot, and lets commands be due from now on.
+  void begin() {
+    seen_ = Seen{{}, {}, seen_.lateness_us, 0, seen_.last};
+    next_command_ = Clock::now();
   }
 
  private:
@@ -184,7 +178,7 @@ class Crowd {
     if (type == "ack") take_answer(client, said);
     if (type == "mission" && client == 0)
       for (const json& drone : said.at("mission").at("drones")) drone_ids_.push_back(drone.at("id"));
-    if (type == "status" && client == 0) take_status(said.at("lateness_us"));
+    if (type == "status" && client == 0) seen_.lateness_us = said.at("lateness_ever_us");
     if (type == "refused" || type == "bye") throw std::runtime_error("the program refuses: " + said.dump());
   }
 
@@ -202,14 +196,6 @@ class Crowd {
     seen_.ticks_late.push_back(answer.at("tick").get<std::int64_t>() - asked.mapped().next_tick);
   }
 
-  void take_status(const json& lateness) {
-    if (Clock::now() < began_ + settles_) return;
-    seen_.late_p50_us = lateness.at("p50");
-    seen_.late_p99_us = std::max<double>(seen_.late_p99_us, lateness.at("p99"));
-    seen_.late_p999_us = std::max<double>(seen_.late_p999_us, lateness.at("p999"));
-    seen_.late_max_us = std::max<double>(seen_.late_max_us, lateness.at("max"));
-  }
-
   std::vector<LiveClient> clients_;
   std::vector<std::unordered_map<std::uint64_t, Asked>> asked_;
   std::vector<std::string> drone_ids_;
@@ -219,8 +205,6 @@ class Crowd {
   std::uint64_t next_id_ = 1;
   std::size_t turns_ = 0;
   Clock::time_point next_command_;
-  Clock::time_point began_;
-  std::chrono::seconds settles_{0};
 };
 
 void require(bool holds, const char* what) {
@@ -260,10 +244,8 @@ void report(benchmark::State& state, const Seen& seen, const ServedProgram& prog
   state.counters["ack_p99_ms"] = quantile(seen.acks_ms, 0.99);
   state.counters["at_next_tick"] = share_within(seen.ticks_late, 0);
   state.counters["a_tick_later"] = share_within(seen.ticks_late, 1) - share_within(seen.ticks_late, 0);
-  state.counters["late_p50_ms"] = 1e-3 * seen.late_p50_us;
-  state.counters["late_p99_ms"] = 1e-3 * seen.late_p99_us;
-  state.counters["late_p999_ms"] = 1e-3 * seen.late_p999_us;
-  state.counters["late_max_ms"] = 1e-3 * seen.late_max_us;
+  for (const char* figure : {"p50", "p99", "p999", "max"})
+    state.counters[fmt::format("late_{}_ms", figure)] = 1e-3 * seen.lateness_us.at(figure).get<double>();
   state.counters["snapshots_per_s"] = static_cast<double>(seen.snapshots) / seconds;
   state.counters["bytes_a_drone"] =
       static_cast<double>(seen.last.bytes - 16 * seen.last.rows) / static_cast<double>(kDrones);
@@ -288,7 +270,7 @@ void serve(benchmark::State& state, const std::string& mission, const std::strin
           "the system gives no real-time priority to anybody here; `ulimit -r 1` would allow it");
   std::vector<Child> busy;
   for (std::size_t i = 0; i < kBusyProcesses; ++i) busy.push_back(spin());
-  crowd.begin(time);
+  crowd.begin();
   BareThread bare(kTick, has_priority);
   const std::uint64_t first = crowd.seen().last.tick;
   const auto began = Clock::now();

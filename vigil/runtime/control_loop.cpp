@@ -85,7 +85,10 @@ void ControlLoop::measure(Time now) noexcept {
   Lateness both = lateness_before_;
   both.add(lateness_);
   figures_ = both.figures();
+  both.add(lateness_long_ago_);
+  figures_ever_ = both.figures();
   if (now - period_began_ < kPeriod) return;
+  lateness_long_ago_.add(lateness_before_);
   lateness_before_ = lateness_;
   lateness_.clear();
   period_began_ = now;
@@ -93,7 +96,8 @@ void ControlLoop::measure(Time now) noexcept {
 
 void ControlLoop::publish(Time now) noexcept {
   measure(now);
-  clocks_.mine() = {.speed = pacer_.speed(), .is_paused = pacer_.is_paused(), .lateness = figures_};
+  clocks_.mine() = {
+      .speed = pacer_.speed(), .is_paused = pacer_.is_paused(), .lateness = figures_, .lateness_ever = figures_ever_};
   clocks_.publish();
   if (has_new_frame_) has_new_frame_ = !frames_.publish();
 }

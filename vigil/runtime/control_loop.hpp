@@ -60,7 +60,9 @@ class ControlLoop {
   TickPacer pacer_;
   Lateness lateness_;  ///< of the period that is being measured
   Lateness lateness_before_;
-  LatenessFigures figures_;  ///< of both
+  Lateness lateness_long_ago_;
+  LatenessFigures figures_;       ///< of the first two
+  LatenessFigures figures_ever_;  ///< of all
   Time period_began_{0};
   Time figures_made_{0};
   Inbox<LiveCommand> inbox_;

@@ -168,6 +168,20 @@ TEST_F(ControlLoopTest, Lateness_is_measured_and_a_long_stop_is_not_hurried_afte
   EXPECT_LE(frame().snapshot.tick - later, 6U);
 }
 
+TEST_F(ControlLoopTest,
+       A_late_tick_is_remembered_for_twenty_seconds_in_the_newest_figures_and_for_ever_in_the_flights) {
+  run_until(6s);
+  now += 30ms;
+  run_until(now + 40s);
+  const ClockState state = clock_state();
+  EXPECT_LT(state.lateness.max_us, 2.0);
+  EXPECT_GT(state.lateness_ever.max_us, 9'000.0);
+  EXPECT_GE(state.lateness.ticks, 500U);
+  EXPECT_LE(state.lateness.ticks, 1000U);
+  EXPECT_NEAR(static_cast<double>(state.lateness_ever.ticks), 50.0 * 41.0, 40.0);
+  EXPECT_LT(state.lateness_ever.p999_us, 2.0);
+}
+
 TEST_F(ControlLoopTest, More_commands_than_a_tick_can_answer_wait_for_the_next) {
   run_until(5s + 10ms);
   for (std::uint64_t ticket = 1; ticket <= 20; ++ticket)

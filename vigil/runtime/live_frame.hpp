@@ -29,7 +29,8 @@ struct LiveFrame {
 struct ClockState {
   double speed = 1.0;  ///< factor of real time
   bool is_paused = false;
-  LatenessFigures lateness;  ///< of the last 10 to 20 s
+  LatenessFigures lateness;       ///< of the last 10 to 20 s
+  LatenessFigures lateness_ever;  ///< since the flight began
 };
 
 /// In the air as far as is known.

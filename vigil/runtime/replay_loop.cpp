@@ -96,7 +96,7 @@ void ReplayLoop::play(Time now) {
 }
 
 void ReplayLoop::publish(Time now) {
-  clocks_.mine() = {.speed = speed_, .is_paused = is_paused_, .lateness = {}};
+  clocks_.mine() = {.speed = speed_, .is_paused = is_paused_, .lateness = {}, .lateness_ever = {}};
   clocks_.publish();
   if (!has_new_frame_) return;
   scene_.write(frames_.mine());

@@ -441,6 +441,7 @@ Json Hub::status() const {
                         .lost_events = flight_->lost_events(),
                         .clients = clients_.size(),
                         .lateness = clock_.lateness,
+                        .lateness_ever = clock_.lateness_ever,
                         .waits_for_resume = waits_for_resume_,
                         .waiting = {},
                         .waiting_more = 0,
@@ -486,8 +487,8 @@ Json Hub::state() const {
              {"idle", swarm::name_of(snapshot.idle)},
              {"drones", std::move(drones)}};
   const Json more = status();
-  for (const char* member :
-       {"areas", "recording", "clients", "lateness_us", "waits_for_resume", "waiting", "waiting_more", "replay"})
+  for (const char* member : {"areas", "recording", "clients", "lateness_us", "lateness_ever_us", "waits_for_resume",
+                             "waiting", "waiting_more", "replay"})
     state[member] = more.at(member);
   return state;
 }

@@ -398,6 +398,7 @@ Json server_messages() {
       .lost_events = 0,
       .clients = 2,
       .lateness = {.ticks = 1, .p50_us = 64.0, .p99_us = 128.0, .p999_us = 256.0, .max_us = 512.0},
+      .lateness_ever = {.ticks = 1000, .p50_us = 64.0, .p99_us = 256.0, .p999_us = 512.0, .max_us = 1024.0},
       .waits_for_resume = true,
       .waiting = {{"land a, b", "Ana"}},
       .waiting_more = 2,

@@ -47,6 +47,14 @@ Json replay_json(const ReplayState& replay) {
           {"progress", replay.progress}, {"is_at_end", replay.is_at_end},         {"difference", replay.difference}};
 }
 
+Json lateness_json(const runtime::LatenessFigures& lateness) {
+  return {{"ticks", lateness.ticks},
+          {"p50", lateness.p50_us},
+          {"p99", lateness.p99_us},
+          {"p999", lateness.p999_us},
+          {"max", lateness.max_us}};
+}
+
 }  // namespace
 
 Json hello_json(const Operator& client, std::string_view program, std::string_view run, bool wants_login,
@@ -128,11 +136,8 @@ Json status_json(const std::vector<runtime::AreaState>& areas, const StatusConte
           {"recording", std::move(recording)},
           {"lost_events", context.lost_events},
           {"clients", context.clients},
-          {"lateness_us",
-           {{"p50", context.lateness.p50_us},
-            {"p99", context.lateness.p99_us},
-            {"p999", context.lateness.p999_us},
-            {"max", context.lateness.max_us}}},
+          {"lateness_us", lateness_json(context.lateness)},
+          {"lateness_ever_us", lateness_json(context.lateness_ever)},
           {"waits_for_resume", context.waits_for_resume},
           {"waiting", std::move(waiting)},
           {"waiting_more", context.waiting_more},

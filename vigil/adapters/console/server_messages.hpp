@@ -83,6 +83,7 @@ struct StatusContext {
   std::size_t lost_events = 0;
   std::size_t clients = 0;
   runtime::LatenessFigures lateness;
+  runtime::LatenessFigures lateness_ever;
   bool waits_for_resume = false;
   std::vector<WaitingOrder> waiting;  ///< the oldest first, at most kMostWaitingShown
   std::size_t waiting_more = 0;       ///< how many wait besides
