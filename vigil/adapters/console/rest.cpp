@@ -55,15 +55,22 @@ HttpAnswer nothing_flies() { return refusal(503, "not_now", "nothing is flown ye
 
 struct Path {
   std::string_view name;
+  std::string_view methods;
   std::string_view query;  ///< the one name that a query may have; empty: none
 };
 
-constexpr std::array<Path, 6> kPaths{{{"/api/state", ""},
-                                      {"/api/mission", "format"},
-                                      {"/api/areas", ""},
-                                      {"/api/commands", ""},
-                                      {"/api/preview", ""},
-                                      {"/api/why", "drone"}}};
+constexpr std::array<Path, 6> kPaths{{{"/api/state", "GET", ""},
+                                      {"/api/mission", "GET", "format"},
+                                      {"/api/areas", "GET, POST", ""},
+                                      {"/api/commands", "POST", ""},
+                                      {"/api/preview", "POST", ""},
+                                      {"/api/why", "GET", "drone"}}};
+
+HttpAnswer wrong_method(std::string_view methods) {
+  HttpAnswer answer = refusal(405, "wrong_method", fmt::format("this path answers to {}", methods));
+  answer.headers.emplace_back("Allow", methods);
+  return answer;
+}
 
 constexpr std::string_view kNotBuilt =
     "<!doctype html><html lang=\"en\"><meta charset=\"utf-8\"><title>vigil</title><body><h1>vigil is "
@@ -98,8 +105,7 @@ void Rest::answer(const HttpRequest& request, const Reply& reply) {
   const std::string path = request.target.substr(0, question);
   const std::string query = question == std::string::npos ? "" : request.target.substr(question + 1);
   if (path.starts_with("/api/")) return answer_api(request, path, query, reply);
-  if (request.method != "GET" && request.method != "HEAD")
-    return reply(refusal(405, "wrong_method", "pages are only read"));
+  if (request.method != "GET" && request.method != "HEAD") return reply(wrong_method("GET, HEAD"));
   reply(page_file(request, path));
 }
 
@@ -135,7 +141,7 @@ void Rest::answer_api(const HttpRequest& request, const std::string& path, const
   if (path == "/api/commands" && is_post) return answer_command(parse_client_message(request.body), *role, reply);
   if (path == "/api/preview" && is_post) return answer_command(parse_preview(request.body), *role, reply);
   if (path == "/api/why" && is_get) return explain(query, *role, reply);
-  reply(refusal(405, "wrong_method", "see protocol/openapi.json"));
+  reply(wrong_method(known->methods));
 }
 
 HttpAnswer Rest::areas() const {

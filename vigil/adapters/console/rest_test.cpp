@@ -241,6 +241,9 @@ TEST_F(RestTest, What_is_not_there_is_not_found_and_what_is_there_says_how_it_is
   EXPECT_EQ(status(get("/api/commands")), 405);
   EXPECT_EQ(status(post("/api/state", "{}")), 405);
   EXPECT_EQ(status(post("/", "{}")), 405);
+  const HttpAnswer answer = ask(get("/api/commands"));
+  EXPECT_EQ(answer.headers.back(), std::make_pair(std::string("Allow"), std::string("POST")));
+  EXPECT_NE(answer.body->find("answers to POST"), std::string::npos);
   EXPECT_EQ(status(get("/nothing.js")), 404);
   const HttpAnswer unbuilt = ask(get("/"));
   EXPECT_EQ(unbuilt.status, 200);
