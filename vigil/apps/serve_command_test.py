@@ -293,10 +293,10 @@ class Rest(unittest.TestCase):
         wood = {"type": "Feature", "properties": {"name": "wood"},
                 "geometry": {"type": "MultiPolygon", "coordinates": polygons}}
         for _ in range(2):  # the second time it replaces what the first one added
-            self.assertEqual(self.ask("POST", "/api/areas", {"type": "FeatureCollection", "features": [wood]})[0], 200)
+            self.assertEqual(self.ask("POST", "/api/areas", {**areas, "features": [wood]})[0], 200)
         names = [one["properties"]["name"] for one in self.ask("GET", "/api/areas")[1]["features"]]
         self.assertEqual([name for name in names if name.startswith("wood")], ["wood-1", "wood-2"])
-        self.assertEqual(self.ask("POST", "/api/areas", {"type": "FeatureCollection", "features": []})[0], 400)
+        self.assertEqual(self.ask("POST", "/api/areas", {**areas, "features": []})[0], 400)
 
     def test_pages_carry_what_keeps_browsers_careful(self):
         status, headers, _ = self.program.request("GET", "/")

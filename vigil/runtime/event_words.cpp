@@ -45,6 +45,9 @@ EventWords words_for(std::string_view id, Activity after, const swarm::DroneSnap
     case Activity::kGrounded:
       return {Severity::kInfo, fmt::format("{} is on the ground", id), who_covers(active, drones),
               "take off when it is to fly"};
+    case Activity::kAboutToTakeOff:
+      return {Severity::kWarning, fmt::format("{} is about to take off", id),
+              "it rises by itself once it is well and the air above it is clear", "land or hold takes that back"};
     case Activity::kTakingOff:
       return {Severity::kInfo, fmt::format("{} takes off", id), "the others keep away from above it", ""};
     case Activity::kLanding:

@@ -13,6 +13,7 @@ using swarm::Intent;
 std::optional<CommandKind> wish_for(Intent intent) {
   switch (intent) {
     case Intent::kLand:
+    case Intent::kCalledBack:
       return CommandKind::kLand;
     case Intent::kMarkedFailed:
       return CommandKind::kMarkFailed;

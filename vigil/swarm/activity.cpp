@@ -35,7 +35,8 @@ Activity phase_of(const DroneMemory& memory) {
   if (memory.intent == Intent::kEmergencyStop) return Activity::kEmergencyStop;
   if (memory.intent == Intent::kMarkedFailed) return Activity::kMarkedFailed;
   if (memory.intent == Intent::kOverride || mode == VehicleMode::kManual) return Activity::kOverridden;
-  if (mode == VehicleMode::kGrounded) return Activity::kGrounded;
+  if (mode == VehicleMode::kGrounded)
+    return memory.intent == Intent::kTakeOff ? Activity::kAboutToTakeOff : Activity::kGrounded;
   if (memory.intent == Intent::kLand || mode == VehicleMode::kLanding) return Activity::kLanding;
   if (mode == VehicleMode::kTakingOff) return Activity::kTakingOff;
   if (memory.intent == Intent::kHold || memory.intent == Intent::kStayDown) return Activity::kHeld;
@@ -51,6 +52,8 @@ void settle_intent(DroneMemory& memory) {
     memory.intent = Intent::kStayDown;
   if (memory.last_good.mode == VehicleMode::kFlying && memory.intent == Intent::kTakeOff)
     memory.intent = Intent::kCover;
+  if (memory.intent == Intent::kCalledBack && !on_ground(memory.last_good.mode))  // a pilot may take it up
+    memory.intent = memory.last_good.mode == VehicleMode::kManual ? Intent::kStayDown : Intent::kLand;
 }
 
 /// By its own word; where it says nothing, whatever was seen is taken to fly.
@@ -85,6 +88,7 @@ bool apply_wish(DroneMemory& memory, CommandKind wish, const Vec2& place) noexce
   };
   // Motors that were stopped in the air stay stopped.
   if (intent == Intent::kEmergencyStop && airborne) return wish == CommandKind::kEmergencyStop;
+  const bool is_about_to_rise = grounded && intent == Intent::kTakeOff;
   switch (wish) {
     case CommandKind::kEmergencyStop:
       return set_if(true, Intent::kEmergencyStop);
@@ -93,8 +97,9 @@ bool apply_wish(DroneMemory& memory, CommandKind wish, const Vec2& place) noexce
     case CommandKind::kTakeOff:
       return set_if(grounded && intent != Intent::kOverride && intent != Intent::kMarkedFailed, Intent::kTakeOff);
     case CommandKind::kLand:
-      return set_if(airborne, Intent::kLand);
+      return set_if(airborne || is_about_to_rise, is_about_to_rise ? Intent::kCalledBack : Intent::kLand);
     case CommandKind::kHold:
+      if (is_about_to_rise) return set_if(true, Intent::kCalledBack);
       return set_if(airborne && intent != Intent::kOverride && intent != Intent::kMarkedFailed, Intent::kHold);
     case CommandKind::kGoTo:
       if (!airborne || intent == Intent::kOverride || intent == Intent::kMarkedFailed) return false;
@@ -128,8 +133,9 @@ void judge(DroneMemory& memory, const HealthParameters& health, double dt_s) noe
   memory.healthy_s = 0.0;
   memory.is_recovering = fault != Activity::kNeverSeen;  // the first sight of a drone is no recovery
   // What the operator did to a drone, or its being down, says more than what is wrong with it then.
-  const bool phase_explains = phase == Activity::kGrounded || phase == Activity::kEmergencyStop ||
-                              phase == Activity::kMarkedFailed || phase == Activity::kOverridden;
+  const bool phase_explains = phase == Activity::kGrounded || phase == Activity::kAboutToTakeOff ||
+                              phase == Activity::kEmergencyStop || phase == Activity::kMarkedFailed ||
+                              phase == Activity::kOverridden;
   memory.activity = phase_explains && fault != Activity::kNeverSeen ? phase : fault;
 }
 
@@ -137,10 +143,9 @@ Action action_for(const DroneMemory& memory) noexcept {
   // Said for as long as it is wished, whatever the vehicle reports: the message or the report may have been lost.
   if (memory.intent == Intent::kEmergencyStop) return Action::kStopMotors;
   const bool lands_already = memory.last_good.mode == VehicleMode::kLanding;
-  const bool may_take_off = memory.intent == Intent::kTakeOff && memory.healthy_s > 0.0;
   switch (memory.activity) {
-    case Activity::kGrounded:
-      return may_take_off ? Action::kTakeOff : Action::kNone;
+    case Activity::kAboutToTakeOff:
+      return memory.healthy_s > 0.0 ? Action::kTakeOff : Action::kNone;
     case Activity::kLanding:
     case Activity::kBatteryLow:
       return lands_already ? Action::kNone : Action::kLand;

@@ -27,7 +27,8 @@ enum class Intent : std::uint8_t {
   kGoTo,  ///< to DroneMemory::place, and wait there
   kMarkedFailed,
   kEmergencyStop,  ///< until a take-off is asked for on the ground
-  kOverride
+  kOverride,
+  kCalledBack  ///< a take-off was taken back on the ground: whatever leaves the ground after that lands
 };
 
 /// Active, or why not: the paper's chi_i (12) with its reason.
@@ -46,7 +47,8 @@ enum class Activity : std::uint8_t {
   kBatteryLow,     ///< below the reserve: it lands
   kHeld,           ///< an operator holds it, or it flies although nobody asked it to
   kRecovering,     ///< healthy again, for less than recovery_s
-  kTravelling      ///< on its way to a place, or waiting there
+  kTravelling,     ///< on its way to a place, or waiting there
+  kAboutToTakeOff  ///< on the ground, and told to rise: as soon as it can, and the air above it is clear
 };
 
 /// What the vehicle is asked to do, every tick anew (so a lost message costs one tick).

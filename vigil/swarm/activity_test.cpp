@@ -120,10 +120,50 @@ TEST(Activity, A_take_off_brings_a_grounded_drone_into_coverage) {
   DroneMemory memory;
   (void)judged(memory, seen(VehicleMode::kGrounded));
   ASSERT_TRUE(apply_wish(memory, CommandKind::kTakeOff));
-  (void)judged(memory, seen(VehicleMode::kGrounded));
+  EXPECT_EQ(judged(memory, seen(VehicleMode::kGrounded)), Activity::kAboutToTakeOff);
   EXPECT_EQ(action_for(memory), Action::kTakeOff);
   EXPECT_EQ(judged(memory, seen(VehicleMode::kTakingOff)), Activity::kTakingOff);
   EXPECT_EQ(judged(memory, seen()), Activity::kActive);
+}
+
+DroneMemory called_back(CommandKind wish) {
+  DroneMemory memory;
+  (void)judged(memory, seen(VehicleMode::kGrounded));
+  EXPECT_TRUE(apply_wish(memory, CommandKind::kTakeOff));
+  (void)judged(memory, seen(VehicleMode::kGrounded));
+  EXPECT_TRUE(apply_wish(memory, wish));
+  return memory;
+}
+
+TEST(Activity, To_land_or_hold_takes_a_take_off_back_that_has_not_happened_yet) {
+  for (const CommandKind wish : {CommandKind::kLand, CommandKind::kHold}) {
+    DroneMemory memory = called_back(wish);
+    for (int tick = 0; tick < 100; ++tick) {
+      EXPECT_EQ(judged(memory, seen(VehicleMode::kGrounded)), Activity::kGrounded);
+      EXPECT_EQ(action_for(memory), Action::kNone);
+    }
+    EXPECT_FALSE(apply_wish(memory, wish));  // there is nothing more to take back
+    ASSERT_TRUE(apply_wish(memory, CommandKind::kTakeOff));
+    (void)judged(memory, seen(VehicleMode::kGrounded));
+    EXPECT_EQ(action_for(memory), Action::kTakeOff);
+  }
+}
+
+TEST(Activity, One_that_rises_although_its_take_off_was_taken_back_lands_again) {
+  for (const VehicleMode mode : {VehicleMode::kTakingOff, VehicleMode::kFlying}) {
+    DroneMemory memory = called_back(CommandKind::kLand);
+    (void)judged(memory, seen(VehicleMode::kGrounded));
+    EXPECT_EQ(judged(memory, seen(mode)), Activity::kLanding);
+    EXPECT_EQ(action_for(memory), Action::kLand);
+    EXPECT_EQ(judged(memory, seen(VehicleMode::kGrounded)), Activity::kGrounded);
+    EXPECT_EQ(memory.intent, Intent::kStayDown);
+  }
+}
+
+TEST(Activity, A_pilot_may_take_up_one_whose_take_off_was_taken_back) {
+  DroneMemory memory = called_back(CommandKind::kLand);
+  EXPECT_EQ(judged(memory, seen(VehicleMode::kManual)), Activity::kOverridden);
+  EXPECT_EQ(judged(memory, seen()), Activity::kHeld);
 }
 
 TEST(Activity, A_faulty_drone_does_not_take_off) {

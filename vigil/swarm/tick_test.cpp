@@ -153,6 +153,23 @@ TEST(Tick, A_take_off_waits_until_the_air_above_is_clear_and_the_others_clear_it
   EXPECT_GE(world.distance(0, 1), 0.2 - 1e-5);
 }
 
+TEST(Tick, Who_waits_for_clear_air_is_said_to_and_stays_down_when_all_are_to_land) {
+  IdealWorld world(parameters(2), {{1.5, 1.5}, {1.55, 1.5}});
+  world.land(0);
+  world.step();
+  world.step({wish(CommandKind::kHold, 1)});
+  world.step({wish(CommandKind::kTakeOff, 0)});
+  EXPECT_EQ(world.snapshot.drones[0].activity, Activity::kAboutToTakeOff);
+  EXPECT_EQ(world.snapshot.drones[0].order.action, Action::kNone);
+  world.step({wish(CommandKind::kLand, 0), wish(CommandKind::kLand, 1)});
+  world.land(1);
+  for (int tick = 0; tick < 500; ++tick) {
+    world.step();
+    ASSERT_EQ(world.snapshot.drones[0].activity, Activity::kGrounded);
+    ASSERT_EQ(world.snapshot.drones[0].order.action, Action::kNone);
+  }
+}
+
 TEST(Tick, A_command_takes_effect_in_the_tick_that_it_is_given_to) {
   IdealWorld world(parameters(2), {{0.5, 0.5}, {2.5, 2.5}});
   world.step({set_target(target_around(world.state, {1.5, 1.5}))});

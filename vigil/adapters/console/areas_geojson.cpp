@@ -163,6 +163,23 @@ void take_feature(const JsonReader& feature, const json& object, const std::stri
     edits.push_back(intake.take(std::move(entry), place));
 }
 
+/// Any other GeoJSON is in degrees (RFC 7946, 4), and a valley in degrees is a millimetre wide in metres.
+void require_metres(const JsonReader& collection) {
+  constexpr std::size_t kMostWordBytes = 80;
+  constexpr std::string_view kPagesFrame = "local metres, world frame of the mission";
+  const auto is_ours = [&] {
+    if (collection.has("frame")) return collection.text("frame", kMostWordBytes) == kPagesFrame;
+    if (!collection.has("vigil")) return false;
+    const JsonReader own = collection.object("vigil");
+    return own.text("frame", kMostWordBytes) == "world" && own.text("unit", kMostWordBytes) == "m";
+  };
+  if (collection.has("crs") || !is_ours())
+    collection.refuse("vigil",
+                      R"(must be {"frame": "world", "unit": "m"}, and no crs: a file that does not say that it is in )"
+                      "metres of the mission's world frame is in longitude and latitude, which are not read here; "
+                      "convert it, then add that");
+}
+
 }  // namespace
 
 ordered_json areas_geojson(const runtime::Mission& mission) {
@@ -194,6 +211,7 @@ std::variant<std::vector<runtime::TargetEdit>, std::string> edits_of_geojson(std
   try {
     const JsonReader reader(collection, "");
     if (reader.text("type", 40) != "FeatureCollection") reader.refuse("type", "must be FeatureCollection");
+    require_metres(reader);
     Intake intake(mission);
     std::vector<runtime::TargetEdit> edits;
     std::size_t number = 0;

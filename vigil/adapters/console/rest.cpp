@@ -37,7 +37,7 @@ int status_of(const Json& answer) {
 }
 
 bool is_json(const std::string& content_type) {
-  const std::string type = content_type.substr(0, content_type.find(';'));
+  const std::string type = lower(content_type.substr(0, content_type.find(';')));
   return type == "application/json" || type == "application/geo+json";
 }
 
@@ -127,6 +127,8 @@ void Rest::answer_api(const HttpRequest& request, const std::string& path, const
     return reply(refusal(400, "malformed", problem));
   const bool is_get = request.method == "GET";
   const bool is_post = request.method == "POST";
+  const auto has = [&](std::string_view method) { return known->methods.find(method) != std::string_view::npos; };
+  if (!(is_get && has("GET")) && !(is_post && has("POST"))) return reply(wrong_method(known->methods));
   if (is_post && !gate_.admits_origin(request.origin, request.host))
     return reply(refusal(403, "wrong_origin", "another site's page may not command drones"));
   if (is_post && !is_json(request.content_type))

@@ -21,7 +21,8 @@ namespace {
 
 using namespace std::chrono_literals;
 
-constexpr const char* kArea = R"({"type":"FeatureCollection","features":[{"type":"Feature","properties":{"name":"hall"},
+constexpr const char* kArea =
+    R"({"type":"FeatureCollection","vigil":{"frame":"world","unit":"m"},"features":[{"type":"Feature","properties":{"name":"hall"},
   "geometry":{"type":"Polygon","coordinates":[[[-0.5,10.5],[0,10.5],[0,11],[-0.5,10.5]]]}}]})";
 
 /// A small triangle from `x` on to the right, as a polygon's list of rings.
@@ -33,8 +34,8 @@ std::string polygon_at(double x) { return fmt::format(R"({{"type":"Polygon","coo
 /// A file of one feature.
 std::string collection(const std::string& properties, const std::string& geometry) {
   return fmt::format(
-      R"({{"type":"FeatureCollection","features":[{{"type":"Feature","properties":{},"geometry":{}}}]}})", properties,
-      geometry);
+      R"({{"type":"FeatureCollection","vigil":{{"frame":"world","unit":"m"}},"features":[{{"type":"Feature","properties":{},"geometry":{}}}]}})",
+      properties, geometry);
 }
 
 /// The console's REST interface on a flying swarm; `console.fly()` is the test's.
@@ -150,6 +151,26 @@ TEST_F(RestTest, Areas_go_out_and_come_in_again) {
   EXPECT_EQ(json(post("/api/areas", R"({"type":"FeatureCollection","features":[]})")).at("code"), "invalid");
 }
 
+TEST_F(RestTest, Areas_in_degrees_are_never_taken_for_metres) {
+  console.fly();
+  const std::string features = R"("features":[{"type":"Feature","properties":{"kind":"no_fly","name":"line"},
+    "geometry":{"type":"Polygon","coordinates":[[[0.1,10.1],[0.2,10.1],[0.2,10.2],[0.1,10.1]]]}}]})";
+  const auto answer = [&](const std::string& says) {
+    return json(post("/api/areas", R"({"type":"FeatureCollection",)" + says + features));
+  };
+  const std::size_t before = console.hub.mission()->no_fly.size();
+  const std::string metres = R"("vigil":{"frame":"world","unit":"m"},)";
+  const std::string crs = R"("crs":{"type":"name","properties":{"name":"urn:ogc:def:crs:OGC:1.3:CRS84"}},)";
+  for (const std::string& says : {std::string(), crs, metres + crs, std::string(R"("frame":"WGS84",)"),
+                                  std::string(R"("vigil":{"frame":"world","unit":"ft"},)")}) {
+    const Json refused = answer(says);
+    EXPECT_EQ(refused.at("code"), "invalid") << says;
+    EXPECT_NE(std::string(refused.at("reason")).find("longitude and latitude"), std::string::npos) << says;
+  }
+  EXPECT_EQ(console.hub.mission()->no_fly.size(), before);
+  EXPECT_EQ(answer(metres).at("type"), "ack");
+}
+
 TEST_F(RestTest, Areas_that_come_in_replace_those_of_their_name_and_get_free_names_where_they_have_none) {
   console.fly();
   const auto names = [this] {
@@ -194,8 +215,10 @@ TEST_F(RestTest, Areas_with_holes_and_with_names_that_are_taken_are_refused_with
             "features[0]: east is the name of a cluster already; give it another");
   const std::string feature =
       fmt::format(R"({{"type":"Feature","properties":{{"name":"x"}},"geometry":{}}})", polygon_at(0.2));
-  EXPECT_EQ(reason(fmt::format(R"({{"type":"FeatureCollection","features":[{0},{0}]}})", feature)),
-            "features[1]: the name x is there twice; names must differ");
+  EXPECT_EQ(
+      reason(fmt::format(
+          R"({{"type":"FeatureCollection","vigil":{{"frame":"world","unit":"m"}},"features":[{0},{0}]}})", feature)),
+      "features[1]: the name x is there twice; names must differ");
 }
 
 TEST_F(RestTest, Commands_are_answered_as_by_websocket_with_the_status_that_says_the_same) {
@@ -241,6 +264,12 @@ TEST_F(RestTest, What_is_not_there_is_not_found_and_what_is_there_says_how_it_is
   EXPECT_EQ(status(get("/api/commands")), 405);
   EXPECT_EQ(status(post("/api/state", "{}")), 405);
   EXPECT_EQ(status(post("/", "{}")), 405);
+  HttpRequest shouted = command({{"type", "ping"}, {"id", 1}});
+  shouted.content_type = "Application/JSON; charset=utf-8";
+  EXPECT_EQ(status(shouted), 200);
+  shouted.target = "/api/why";
+  shouted.content_type = "text/plain";
+  EXPECT_EQ(status(shouted), 405);  // whatever it brings
   const HttpAnswer answer = ask(get("/api/commands"));
   EXPECT_EQ(answer.headers.back(), std::make_pair(std::string("Allow"), std::string("POST")));
   EXPECT_NE(answer.body->find("answers to POST"), std::string::npos);

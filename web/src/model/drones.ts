@@ -60,6 +60,12 @@ export const kActivities: readonly ActivityWords[] = [
     'info',
     'It flies to where an operator sent it and waits there. Resume sends it back to coverage.',
   ),
+  activity(
+    'about_to_take_off',
+    'About to rise',
+    'warning',
+    'It takes off by itself once it is well and the air above it is clear. Land or Hold takes that back.',
+  ),
 ];
 
 const kUnknownActivity = activity('unknown', 'Unknown', 'warning', 'This console does not know that state.');

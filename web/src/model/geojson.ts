@@ -60,11 +60,22 @@ const anyObject: Shape<Record<string, unknown>> = (value, place) => {
 const featureShape = record({ geometry: anyObject, properties: maybe(propertiesShape) });
 const collectionShape = record({
   type: oneOf('FeatureCollection'),
+  frame: maybe(text(80)),
+  vigil: maybe(record({ frame: text(80), unit: text(80) })),
+  crs: maybe(anyObject),
   features: list(featureShape, kMostFeatures),
 });
 
 type Properties = Exclude<ReturnType<typeof featureShape>['properties'], null>;
 const kNoProperties: Properties = { kind: null, name: null, weight: null, soft_edge_m: null, revisit_s: null };
+
+/** Any other GeoJSON is in degrees (RFC 7946, 4), and a valley in degrees is a millimetre wide in metres. */
+const isInMetres = ({ frame, vigil, crs }: ReturnType<typeof collectionShape>): boolean =>
+  crs === null && (frame === kFrame || (frame === null && vigil?.frame === 'world' && vigil.unit === 'm'));
+
+const kDegrees =
+  'it does not say that it is in metres, so it is in longitude and latitude, which are not read here; convert it to ' +
+  'metres of the mission’s world frame, then add "vigil": {"frame": "world", "unit": "m"} and no crs';
 
 /**
  * The edits that bring the file's features in, or why it cannot be read. A feature with the name of an entry of its kind
@@ -72,7 +83,9 @@ const kNoProperties: Properties = { kind: null, name: null, weight: null, soft_e
  */
 export function readAreas(json: string, targets: Targets): Edit[] | string {
   try {
-    const { features } = collectionShape(JSON.parse(json), 'file');
+    const collection = collectionShape(JSON.parse(json), 'file');
+    if (!isInMetres(collection)) return kDegrees;
+    const { features } = collection;
     if (features.length === 0) return 'there is no feature in it';
     const intake = new Intake(targets);
     return features.flatMap((feature, i) => {

@@ -9,7 +9,7 @@ export function refusalWords(asked: string, ack: Ack): string {
   if (count === 0) return '';
   const named = refused.slice(0, kMostNamed).map(({ drone, reason }) => reasonOf(drone, reason));
   const more = count > named.length ? [`and ${count - named.length} more`] : [];
-  return `${asked}, but not ${count} of them: ${[...named, ...more].join('; ')}`;
+  return `${asked.replace(/\.$/, '')}, but not ${count} of them: ${[...named, ...more].join('; ')}`;
 }
 
 /** Each drone is named once. */

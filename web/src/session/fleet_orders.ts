@@ -38,20 +38,25 @@ export class FleetOrders {
   }
 
   to(order: Order, drones: readonly string[] | 'all'): void {
-    const isAll = drones === 'all' || drones.length === this.session.droneIds.value.length;
-    const who = isAll ? 'all drones' : drones.length > 3 ? `${drones.length} drones` : drones.join(', ');
-    const command = this.session.forThisFlight({ type: order, drones: isAll ? 'all' : drones });
+    const areAll = drones === 'all' || drones.length === this.session.droneIds.value.length;
+    const who = areAll ? 'all drones' : drones.length > 3 ? `${drones.length} drones` : drones.join(', ');
+    // Who was chosen is named, also where it is everybody: to resume "all" leaves those that are marked failed.
+    const command = this.session.forThisFlight({ type: order, drones });
     const done = `${kOrderNames[order]}: ${who}`;
     if (order === 'land') void this.session.bringDown(command, done, done);
     else void this.session.command(command, done);
   }
 
-  /** The selected drones fly to a place of the world and wait there; all of them where none is selected. */
+  /** The selected drones fly to a place of the world and wait there; says so when none is. */
   goTo(place: Point): void {
     const drones = this.selectedIds();
-    const who = drones.length === 0 ? 'all drones' : drones.length > 3 ? `${drones.length} drones` : drones.join(', ');
+    if (drones.length === 0) {
+      this.session.notify('info', 'Go to sends the selected drones, and none is: select drones first.');
+      return;
+    }
+    const who = drones.length > 3 ? `${drones.length} drones` : drones.join(', ');
     const place_m = [place[0], place[1]];
-    const command = { type: 'go_to', drones: drones.length === 0 ? 'all' : drones, place_m };
+    const command = { type: 'go_to', drones, place_m };
     void this.session.command(this.session.forThisFlight(command), `On the way: ${who}`);
   }
 
