@@ -27,7 +27,7 @@ CsvFile::CsvFile(const std::filesystem::path& path, int flags) : path_(path) {
   descriptor_ = ::open(path.c_str(), O_WRONLY | O_CLOEXEC | flags, 0666);
   if (descriptor_ < 0) {
     throw RecordingError(
-        fmt::format("{}: cannot create it: {}; choose another --out", path.string(), std::strerror(errno)));
+        fmt::format("{}: cannot create it: {}; choose another folder", path.string(), std::strerror(errno)));
   }
   buffer_.reserve(kPiece + kLongestRow);
 }
@@ -122,7 +122,7 @@ void create_folder(const std::filesystem::path& folder) {
   std::filesystem::create_directories(folder, error);
   if (error)
     throw RecordingError(
-        fmt::format("{}: cannot create the folder: {}; choose another --out", folder.string(), error.message()));
+        fmt::format("{}: cannot create the folder: {}; choose another folder", folder.string(), error.message()));
 }
 
 void write_text(const std::filesystem::path& path, std::string_view text) {

@@ -30,11 +30,12 @@ std::string uri_of(const std::string& path) {
 void Database::Close::operator()(sqlite3* handle) const { sqlite3_close_v2(handle); }
 void Statement::Finalize::operator()(sqlite3_stmt* statement) const { sqlite3_finalize(statement); }
 
-Database::Database(const std::filesystem::path& path, Mode mode) : path_(path.string()) {
+Database::Database(const std::filesystem::path& path, Mode mode)
+    : path_(path.string()), is_reading_(mode != Mode::kCreate) {
   if (mode == Mode::kCreate) {
     std::error_code error;
     if (std::filesystem::exists(std::filesystem::symlink_status(path, error)))
-      throw RecordingError(fmt::format("{}: cannot create it: is there already; choose another --out", path_));
+      throw RecordingError(fmt::format("{}: cannot create it: is there already; choose another folder", path_));
     open(path_, SQLITE_OPEN_READWRITE | SQLITE_OPEN_CREATE);
     return;
   }
@@ -56,7 +57,14 @@ void Database::open(const std::string& name, int flags) {
 
 void Database::fail() const {
   const char* reason = handle_ ? sqlite3_errmsg(handle_.get()) : "out of memory";
-  throw RecordingError(fmt::format("{}: {}", path_, reason));
+  const int code = handle_ ? sqlite3_errcode(handle_.get()) : SQLITE_NOMEM;
+  // What a file says that is empty, cut short, or another program's.
+  const bool is_no_recording = code == SQLITE_CORRUPT || code == SQLITE_NOTADB || code == SQLITE_ERROR;
+  const char* hint = is_reading_ && is_no_recording
+                         ? "; it is damaged or no recording: bring it back from a copy, or move it away if it does not "
+                           "belong here"
+                         : "";
+  throw RecordingError(fmt::format("{}: {}{}", path_, reason, hint));
 }
 
 void Database::run(const std::string& sql) {

@@ -35,6 +35,7 @@ class Database {
   void open(const std::string& name, int flags);
 
   std::string path_;
+  bool is_reading_ = false;
   std::unique_ptr<sqlite3, Close> handle_;
 };
 
