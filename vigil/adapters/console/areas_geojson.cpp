@@ -165,15 +165,11 @@ void take_feature(const JsonReader& feature, const json& object, const std::stri
 
 /// Any other GeoJSON is in degrees (RFC 7946, 4), and a valley in degrees is a millimetre wide in metres.
 void require_metres(const JsonReader& collection) {
-  constexpr std::size_t kMostWordBytes = 80;
-  constexpr std::string_view kPagesFrame = "local metres, world frame of the mission";
-  const auto is_ours = [&] {
-    if (collection.has("frame")) return collection.text("frame", kMostWordBytes) == kPagesFrame;
-    if (!collection.has("vigil")) return false;
-    const JsonReader own = collection.object("vigil");
+  constexpr std::size_t kMostWordBytes = 40;
+  const auto is_in_metres = [&](const JsonReader& own) {
     return own.text("frame", kMostWordBytes) == "world" && own.text("unit", kMostWordBytes) == "m";
   };
-  if (collection.has("crs") || !is_ours())
+  if (collection.has("crs") || !collection.has("vigil") || !is_in_metres(collection.object("vigil")))
     collection.refuse("vigil",
                       R"(must be {"frame": "world", "unit": "m"}, and no crs: a file that does not say that it is in )"
                       "metres of the mission's world frame is in longitude and latitude, which are not read here; "

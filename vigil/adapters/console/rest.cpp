@@ -133,17 +133,16 @@ void Rest::answer_api(const HttpRequest& request, const std::string& path, const
     return reply(refusal(403, "wrong_origin", "another site's page may not command drones"));
   if (is_post && !is_json(request.content_type))
     return reply(refusal(415, "wrong_type", "send the header Content-Type: application/json"));
-  if (path == "/api/state" && is_get) {
+  if (path == "/api/state") {
     const Json state = hub_.state();
     return reply(state.is_null() ? nothing_flies() : json_answer(200, state));
   }
-  if (path == "/api/mission" && is_get) return reply(mission(request, query));
+  if (path == "/api/mission") return reply(mission(request, query));
   if (path == "/api/areas" && is_get) return reply(areas());
-  if (path == "/api/areas" && is_post) return import_areas(request, *role, reply);
-  if (path == "/api/commands" && is_post) return answer_command(parse_client_message(request.body), *role, reply);
-  if (path == "/api/preview" && is_post) return answer_command(parse_preview(request.body), *role, reply);
-  if (path == "/api/why" && is_get) return explain(query, *role, reply);
-  reply(wrong_method(known->methods));
+  if (path == "/api/areas") return import_areas(request, *role, reply);
+  if (path == "/api/commands") return answer_command(parse_client_message(request.body), *role, reply);
+  if (path == "/api/preview") return answer_command(parse_preview(request.body), *role, reply);
+  explain(query, *role, reply);
 }
 
 HttpAnswer Rest::areas() const {

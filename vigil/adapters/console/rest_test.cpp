@@ -161,7 +161,7 @@ TEST_F(RestTest, Areas_in_degrees_are_never_taken_for_metres) {
   const std::size_t before = console.hub.mission()->no_fly.size();
   const std::string metres = R"("vigil":{"frame":"world","unit":"m"},)";
   const std::string crs = R"("crs":{"type":"name","properties":{"name":"urn:ogc:def:crs:OGC:1.3:CRS84"}},)";
-  for (const std::string& says : {std::string(), crs, metres + crs, std::string(R"("frame":"WGS84",)"),
+  for (const std::string& says : {std::string(), crs, metres + crs, std::string(R"("frame":"world",)"),
                                   std::string(R"("vigil":{"frame":"world","unit":"ft"},)")}) {
     const Json refused = answer(says);
     EXPECT_EQ(refused.at("code"), "invalid") << says;

@@ -382,9 +382,10 @@ TEST(BagRecording, Files_of_others_are_refused_with_their_name) {
   std::filesystem::create_directory(folder.path() / "recording");
   EXPECT_NE(message_of([&] { const BagRecording none(folder.path()); }).find("no recording here"), std::string::npos);
   overwrite(folder.path() / "recording/recording_0.db3", "no database at all, but long enough to look like one?");
-  EXPECT_NE(
-      message_of([&] { const BagRecording other(folder.path()); }).find("recording_0.db3: file is not a database"),
-      std::string::npos);
+  EXPECT_NE(message_of([&] {
+              const BagRecording other(folder.path());
+            }).find("recording_0.db3: file is not a database; it is damaged or no recording: bring it back"),
+            std::string::npos);
 }
 
 }  // namespace

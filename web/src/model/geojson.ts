@@ -4,9 +4,9 @@ import { apply, find, freeName, type Edit, type Entry, type Kind, type Targets }
 
 /**
  * Areas as GeoJSON, in the mission's own world frame (metres, not longitude and latitude, whatever datum it has). The
- * collection says so in `frame`. Clusters are MultiPoints, areas and no-fly polygons are Polygons with a `kind`.
+ * collection says so in `vigil`, as the program's do. Clusters are MultiPoints, areas and no-fly polygons are Polygons with a `kind`.
  */
-export const kFrame = 'local metres, world frame of the mission';
+const kMetres = { frame: 'world', unit: 'm' };
 
 const kMostFeatures = 1200;
 const kMostPoints = 10_000;
@@ -22,7 +22,7 @@ export function writeAreas(targets: Targets): unknown {
   });
   return {
     type: 'FeatureCollection',
-    frame: kFrame,
+    vigil: kMetres,
     features: [
       ...targets.clusters.map(({ points_m, ...rest }) =>
         feature('cluster', rest, { type: 'MultiPoint', coordinates: points_m }),
@@ -60,7 +60,6 @@ const anyObject: Shape<Record<string, unknown>> = (value, place) => {
 const featureShape = record({ geometry: anyObject, properties: maybe(propertiesShape) });
 const collectionShape = record({
   type: oneOf('FeatureCollection'),
-  frame: maybe(text(80)),
   vigil: maybe(record({ frame: text(80), unit: text(80) })),
   crs: maybe(anyObject),
   features: list(featureShape, kMostFeatures),
@@ -70,8 +69,8 @@ type Properties = Exclude<ReturnType<typeof featureShape>['properties'], null>;
 const kNoProperties: Properties = { kind: null, name: null, weight: null, soft_edge_m: null, revisit_s: null };
 
 /** Any other GeoJSON is in degrees (RFC 7946, 4), and a valley in degrees is a millimetre wide in metres. */
-const isInMetres = ({ frame, vigil, crs }: ReturnType<typeof collectionShape>): boolean =>
-  crs === null && (frame === kFrame || (frame === null && vigil?.frame === 'world' && vigil.unit === 'm'));
+const isInMetres = ({ vigil, crs }: ReturnType<typeof collectionShape>): boolean =>
+  crs === null && vigil?.frame === kMetres.frame && vigil.unit === kMetres.unit;
 
 const kDegrees =
   'it does not say that it is in metres, so it is in longitude and latitude, which are not read here; convert it to ' +

@@ -1,5 +1,5 @@
 import { describe, expect, it } from 'vitest';
-import { kFrame, readAreas, writeAreas } from './geojson';
+import { readAreas, writeAreas } from './geojson';
 import { apply, kNoTargets, type Edit, type Targets } from './targets';
 
 const targets: Targets = {
@@ -14,6 +14,8 @@ const applied = (edits: Edit[] | string, base: Targets): Targets | null => {
   return edits.reduce<Targets | null>((draft, edit) => draft && apply(draft, edit), base);
 };
 
+const kMetres = { frame: 'world', unit: 'm' };
+
 describe('GeoJSON', () => {
   it('What is exported comes back the same', () => {
     expect(applied(readAreas(JSON.stringify(writeAreas(targets)), kNoTargets), kNoTargets)).toEqual(targets);
@@ -25,7 +27,11 @@ describe('GeoJSON', () => {
 
   const square = (x: number) => [[[x, 0], [x + 1, 0], [x + 1, 1], [x, 1], [x, 0]]]; // prettier-ignore
   const collection = (geometry: unknown, properties: unknown = null): string =>
-    JSON.stringify({ type: 'FeatureCollection', frame: kFrame, features: [{ type: 'Feature', properties, geometry }] });
+    JSON.stringify({
+      type: 'FeatureCollection',
+      vigil: kMetres,
+      features: [{ type: 'Feature', properties, geometry }],
+    });
 
   it('What has the name of an entry of its kind replaces it, what has no name gets a free one', () => {
     const heavier = { ...targets, areas: [{ ...targets.areas[0]!, weight: 9 }] };
@@ -39,11 +45,15 @@ describe('GeoJSON', () => {
 
   it('Degrees are never taken for metres', () => {
     const file = JSON.parse(collection({ type: 'Polygon', coordinates: square(0) })) as Record<string, unknown>;
-    const vigil = { frame: 'world', unit: 'm' };
     const crs = { type: 'name', properties: { name: 'urn:ogc:def:crs:OGC:1.3:CRS84' } };
-    for (const says of [{ frame: null }, { frame: 'WGS84' }, { crs }, { frame: null, vigil: { ...vigil, unit: 'ft' } }])
+    for (const says of [
+      { vigil: undefined },
+      { vigil: { ...kMetres, frame: 'WGS84' } },
+      { crs },
+      { vigil: { ...kMetres, unit: 'ft' } },
+    ])
       expect(readAreas(JSON.stringify({ ...file, ...says }), targets)).toMatch(/longitude and latitude/);
-    expect(readAreas(JSON.stringify({ ...file, frame: null, vigil }), targets)).toHaveLength(1);
+    expect(readAreas(JSON.stringify(file), targets)).toHaveLength(1);
   });
 
   it('A name of the other kind, and one that is there twice, are refused', () => {
@@ -51,7 +61,7 @@ describe('GeoJSON', () => {
       'features[0]: east is the name of a cluster already',
     );
     const { features } = writeAreas(targets) as { features: unknown[] };
-    const twice = JSON.stringify({ type: 'FeatureCollection', frame: kFrame, features: [...features, features[1]] });
+    const twice = JSON.stringify({ type: 'FeatureCollection', vigil: kMetres, features: [...features, features[1]] });
     expect(readAreas(twice, kNoTargets)).toBe('features[3]: the name ridge is there twice');
   });
 
