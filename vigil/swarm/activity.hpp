@@ -72,8 +72,8 @@ void remember(DroneMemory& memory, const DroneObservation& observed, double dt_s
 /// wish makes no sense now and is refused: take-off of one that is not on the ground, that a pilot has or that is
 /// marked failed; resuming one that is neither held nor on its way to a place, nor marked failed; giving back one that
 /// nobody took over; landing, holding, sending or taking over one that is not in the air; holding or sending one that
-/// is marked failed; anything but another emergency stop for one whose motors were stopped in the air. Landing or holding
-/// one that is about to take off takes that back: it stays down, and lands should it rise all the same.
+/// is marked failed; anything but another emergency stop for one whose motors were stopped in the air. Landing or
+/// holding one that is about to take off takes that back: it stays down, and lands should it rise all the same.
 [[nodiscard]] bool apply_wish(DroneMemory& memory, CommandKind wish, const Vec2& place = Vec2::Zero()) noexcept;
 
 /// Decides memory.activity (12) for this tick, and moves the intent on where the vehicle has fulfilled it.
