@@ -1,8 +1,15 @@
 #include "vigil/core/ergodic/basis.hpp"
 
+#include <algorithm>
+#include <array>
 #include <cassert>
 #include <cmath>
+#include <cstddef>
+#include <memory>
 #include <numbers>
+#include <vector>
+
+#include "vigil/core/ergodic/lanes_code.hpp"
 
 namespace vigil::ergodic {
 namespace {
@@ -13,14 +20,45 @@ Eigen::VectorXd wave_numbers(int max_index, double length) {
   return result;
 }
 
-// Row k, column j: cos(k pi (j + 1/2) / n) times the weight of midpoint j.
-Eigen::MatrixXd weighted_cosines(int max_index, const Eigen::VectorXd& weights) {
-  Eigen::MatrixXd table(max_index + 1, weights.size());
-  for (Eigen::Index j = 0; j < weights.size(); ++j) {
-    const double phase = std::numbers::pi * (static_cast<double>(j) + 0.5) / static_cast<double>(weights.size());
-    for (int k = 0; k <= max_index; ++k) table(k, j) = weights[j] * std::cos(k * phase);
+// Numbers in rows that the vector code reads: each begins where it likes it, and is followed by zeros to whole lanes.
+class PaddedRows {
+ public:
+  PaddedRows(std::size_t rows, std::size_t length)
+      : stride_((length + kLanes - 1) / kLanes * kLanes), numbers_(rows * stride_ + kLanesAlignment / sizeof(double)) {
+    void* place = numbers_.data();
+    std::size_t room = numbers_.size() * sizeof(double);
+    first_ = static_cast<double*>(std::align(kLanesAlignment, rows * stride_ * sizeof(double), place, room));
   }
-  return table;
+  PaddedRows(const PaddedRows&) = delete;
+  PaddedRows& operator=(const PaddedRows&) = delete;
+
+  [[nodiscard]] std::size_t stride() const { return stride_; }
+  [[nodiscard]] double* row(std::size_t r) { return first_ + r * stride_; }
+
+ private:
+  std::size_t stride_;
+  std::vector<double> numbers_;
+  double* first_;
+};
+
+// Row k: cos(k pi (j + 1/2) / n) times the weight of midpoint j, for j = 0..n-1. k (2 j + 1) / (2 n) half turns, of
+// which whole turns are taken off without error.
+void tabulate_weighted_cosines(const LanesCode& code, const Eigen::VectorXd& weights, std::size_t rows,
+                               PaddedRows& table) {
+  const auto n = static_cast<std::size_t>(weights.size());
+  std::array<double, kLanes> half_turns{};
+  std::array<double, kLanes> sine{};
+  std::array<double, kLanes> cosine{};
+  for (std::size_t k = 0; k < rows; ++k) {
+    for (std::size_t first = 0; first < n; first += kLanes) {
+      for (std::size_t i = 0; i < kLanes; ++i)
+        half_turns[i] = static_cast<double>(k * (2 * (first + i) + 1) % (4 * n)) / static_cast<double>(2 * n);
+      code.sine_cosine(half_turns.data(), sine.data(), cosine.data());
+      const std::size_t present = std::min(kLanes, n - first);
+      for (std::size_t i = 0; i < present; ++i)
+        table.row(k)[first + i] = weights[static_cast<Eigen::Index>(first + i)] * cosine[i];
+    }
+  }
 }
 
 }  // namespace
@@ -54,19 +92,45 @@ Coefficients Basis::evaluate(const Vec2& q) const {
   return f_k;
 }
 
-Coefficients target_coefficients(const Basis& basis, const field::DensityGrid& density) {
-  const Eigen::MatrixXd cos_x = weighted_cosines(basis.max_index(), density.weights_x);
-  const Eigen::MatrixXd cos_y = weighted_cosines(basis.max_index(), density.weights_y);
+// The products are spelt out: a library's would sum in an order that depends on the machine's caches.
+Coefficients target_coefficients(const Basis& basis, const field::DensityGrid& density, InstructionSet set) {
+  const LanesCode& code = lanes_code(set);
+  const auto indices = static_cast<std::size_t>(basis.indices_per_axis());
+  const auto nx = static_cast<std::size_t>(density.values.rows());
+  const auto ny = static_cast<std::size_t>(density.values.cols());
+  PaddedRows cos_x(indices, nx);
+  PaddedRows cos_y(indices, ny);
+  tabulate_weighted_cosines(code, density.weights_x, indices, cos_x);
+  tabulate_weighted_cosines(code, density.weights_y, indices, cos_y);
 
-  // The products are spelt out: a library's would sum in an order that depends on the machine's caches.
-  Coefficients sums = Coefficients::Zero(basis.indices_per_axis(), basis.indices_per_axis());
-  Eigen::VectorXd row(basis.indices_per_axis());  // for one y: the integral over x for every k1
-  for (Eigen::Index iy = 0; iy < density.values.cols(); ++iy) {
-    row.setZero();
-    for (Eigen::Index ix = 0; ix < density.values.rows(); ++ix) row += density.values(ix, iy) * cos_x.col(ix);
-    for (Eigen::Index k2 = 0; k2 < sums.cols(); ++k2) sums.col(k2) += cos_y(k2, iy) * row;
+  // For a few y at a time: the integral over x for every k1.
+  constexpr std::size_t kMostAtOnce = 24;
+  PaddedRows along_x(indices, ny);
+  PaddedRows values(kMostAtOnce, nx);
+  for (std::size_t first = 0; first < ny; first += kMostAtOnce) {
+    const std::size_t present = std::min(kMostAtOnce, ny - first);
+    for (std::size_t c = 0; c < present; ++c)
+      std::copy_n(density.values.col(static_cast<Eigen::Index>(first + c)).data(), nx, values.row(c));
+    code.row_products({.rows = cos_x.row(0),
+                       .columns = values.row(0),
+                       .row_count = indices,
+                       .column_count = present,
+                       .stride = cos_x.stride(),
+                       .out = along_x.row(0) + first,
+                       .out_row_stride = along_x.stride(),
+                       .out_column_stride = 1});
   }
-  return sums.cwiseQuotient(basis.norm());
+
+  Coefficients integrals(basis.indices_per_axis(), basis.indices_per_axis());
+  code.row_products({.rows = along_x.row(0),
+                     .columns = cos_y.row(0),
+                     .row_count = indices,
+                     .column_count = indices,
+                     .stride = along_x.stride(),
+                     .out = integrals.data(),
+                     .out_row_stride = 1,
+                     .out_column_stride = indices});
+  return integrals.cwiseQuotient(basis.norm());
 }
 
 double ergodic_metric(const Basis& basis, const Coefficients& c_k, const Coefficients& phi_k) noexcept {

@@ -2,6 +2,7 @@
 
 #include <Eigen/Core>
 
+#include "vigil/core/ergodic/instruction_set.hpp"
 #include "vigil/core/field/density.hpp"
 #include "vigil/core/field/field.hpp"
 
@@ -42,9 +43,11 @@ class Basis {
   Coefficients weight_;
 };
 
-/// phi_k (5): the integral over F of f_k phi, 1/m. By two small matrix products over the grid, summed in a fixed order.
-/// Precondition: the density is one of the basis's field.
-[[nodiscard]] Coefficients target_coefficients(const Basis& basis, const field::DensityGrid& density);
+/// phi_k (5): the integral over F of f_k phi, 1/m. By two small matrix products over the grid, summed in a fixed order:
+/// the same to the last bit on every processor and with every instruction set. Allocates.
+/// Precondition: the density is one of the basis's field; `set` is one of instruction_sets().
+[[nodiscard]] Coefficients target_coefficients(const Basis& basis, const field::DensityGrid& density,
+                                               InstructionSet set = fastest_instruction_set());
 
 /// eps (4) = sum over k of lambda_k (c_k - phi_k)^2, 1/m^2. Precondition: both (K+1) x (K+1).
 [[nodiscard]] double ergodic_metric(const Basis& basis, const Coefficients& c_k, const Coefficients& phi_k) noexcept;

@@ -81,6 +81,31 @@ RC_GTEST_PROP(TargetCoefficientsTest, A_Gaussian_inside_the_field_has_the_coeffi
   }
 }
 
+// The integral as basis.hpp has it: midpoint after midpoint, with the basis written down as the paper has it.
+Coefficients literal_coefficients(const Basis& basis, const field::DensityGrid& density) {
+  Coefficients sum = Coefficients::Zero(basis.indices_per_axis(), basis.indices_per_axis());
+  for (Eigen::Index iy = 0; iy < density.values.cols(); ++iy) {
+    for (Eigen::Index ix = 0; ix < density.values.rows(); ++ix) {
+      const double mass = density.values(ix, iy) * density.weights_x[ix] * density.weights_y[iy];
+      sum += mass * basis.evaluate(density.midpoint(ix, iy));
+    }
+  }
+  return sum;
+}
+
+RC_GTEST_PROP(TargetCoefficientsTest, They_are_the_literal_integral_s_and_the_same_with_every_instruction_set, ()) {
+  const Basis basis({3.0, 2.0}, *rc::gen::element(1, 7, 20), 1.5);
+  const field::GridShape shape{*rc::gen::inRange<Eigen::Index>(1, 50), *rc::gen::inRange<Eigen::Index>(1, 50)};
+  field::Importance importance;
+  importance.sigma_min_m = 0.3;
+  importance.clusters = {{.name = "c", .targets = {{3.0 * fraction(), 2.0 * fraction()}}}};
+  importance.uniform_floor = 0.1;
+  const field::DensityGrid density = field::rasterise(basis.field(), importance, shape).value();
+  const Coefficients phi_k = target_coefficients(basis, density);
+  RC_ASSERT(largest(phi_k - literal_coefficients(basis, density)) < 1e-12);
+  for (const InstructionSet set : instruction_sets()) RC_ASSERT(target_coefficients(basis, density, set) == phi_k);
+}
+
 TEST(TargetCoefficientsTest, Of_a_uniform_density_only_the_first_is_not_zero) {
   field::Importance importance;
   importance.uniform_floor = 1.0;

@@ -11,7 +11,7 @@ namespace {
 // sum_k += weight times the sum over the drones of f_k(p_i). In portions, so that equal weights need no buffer of the
 // swarm's size.
 void add_evenly(Kernel& kernel, std::span<const Vec2> positions, double weight, Coefficients& sum_k) noexcept {
-  constexpr std::size_t kPortion = 64;
+  constexpr std::size_t kPortion = Kernel::kPortion;
   std::array<double, kPortion> weights{};
   weights.fill(weight);
   for (std::size_t first = 0; first < positions.size(); first += kPortion) {

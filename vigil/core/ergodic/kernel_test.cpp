@@ -1,6 +1,8 @@
 #include "vigil/core/ergodic/kernel.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <span>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -31,29 +33,51 @@ Coefficients any_coefficients(const Basis& basis) {
   return a_k;
 }
 
+// Of what every instruction set of this machine computes: the first's answer, if it is everybody's to the last bit.
+Coefficients sums_of_all_sets(const Basis& basis, std::span<const Vec2> positions, std::span<const double> weights,
+                              const Coefficients& before) {
+  Coefficients sums = before;
+  Kernel(basis, InstructionSet::kPortable).add_basis(positions, weights, sums);
+  for (const InstructionSet set : instruction_sets()) {
+    Coefficients others = before;
+    Kernel(basis, set).add_basis(positions, weights, others);
+    RC_ASSERT(others == sums);
+  }
+  return sums;
+}
+
+std::vector<Vec2> gradients_of_all_sets(const Basis& basis, std::span<const Vec2> positions, const Coefficients& a_k) {
+  std::vector<Vec2> b(positions.size());
+  Kernel(basis, InstructionSet::kPortable).gradient(positions, a_k, b);
+  for (const InstructionSet set : instruction_sets()) {
+    std::vector<Vec2> others(positions.size());
+    Kernel(basis, set).gradient(positions, a_k, others);
+    RC_ASSERT(others == b);
+  }
+  return b;
+}
+
 double potential(const Basis& basis, const Coefficients& a_k, const Vec2& p) {
   return (a_k.array() * basis.evaluate(p).array()).sum();
 }
 
-RC_GTEST_PROP(KernelTest, Sums_are_those_of_the_literal_kernel, ()) {
-  const Basis basis(kField, *rc::gen::element(1, 2, 7, 10, 64), 1.5);
-  const std::vector<Vec2> positions = any_positions(30);
+RC_GTEST_PROP(KernelTest, Sums_are_those_of_the_literal_kernel_and_the_same_with_every_instruction_set, ()) {
+  const Basis basis(kField, *rc::gen::element(1, 2, 7, 10, 13, 20, 64), 1.5);
+  const std::vector<Vec2> positions = any_positions(300);
   std::vector<double> weights;
   for (std::size_t i = 0; i < positions.size(); ++i) weights.push_back(*rc::gen::inRange(1, 1001) * 1e-3);
-  Coefficients fast = Coefficients::Ones(basis.indices_per_axis(), basis.indices_per_axis());
-  Coefficients literal = fast;
-  Kernel(basis).add_basis(positions, weights, fast);
+  Coefficients literal = Coefficients::Ones(basis.indices_per_axis(), basis.indices_per_axis());
+  const Coefficients fast = sums_of_all_sets(basis, positions, weights, literal);
   add_basis_literally(basis, positions, weights, literal);
   RC_ASSERT((fast - literal).cwiseAbs().maxCoeff() <= 1e-12 * literal.cwiseAbs().maxCoeff());
 }
 
-RC_GTEST_PROP(KernelTest, Gradients_are_those_of_the_literal_kernel, ()) {
-  const Basis basis(kField, *rc::gen::element(1, 2, 7, 10, 64), 1.5);
+RC_GTEST_PROP(KernelTest, Gradients_are_those_of_the_literal_kernel_and_the_same_with_every_instruction_set, ()) {
+  const Basis basis(kField, *rc::gen::element(1, 2, 7, 10, 13, 20, 64), 1.5);
   const std::vector<Vec2> positions = any_positions(20);
   const Coefficients a_k = any_coefficients(basis);
-  std::vector<Vec2> fast(positions.size());
+  const std::vector<Vec2> fast = gradients_of_all_sets(basis, positions, a_k);
   std::vector<Vec2> literal(positions.size());
-  Kernel(basis).gradient(positions, a_k, fast);
   gradient_literally(basis, positions, a_k, literal);
   // Relative to the gradients that these coefficients can have: near a stationary point the terms cancel.
   const double scale = a_k.norm() * basis.wave_numbers_y()[basis.max_index()] / basis.norm()(1, 1);
@@ -99,6 +123,23 @@ RC_GTEST_PROP(KernelTest, The_place_of_the_data_in_memory_does_not_matter_to_the
   kernel.add_basis(positions, weights, sum);
   kernel.add_basis(positions, std::span(shifted_weights).subspan(1), shifted);
   RC_ASSERT(sum == shifted);
+}
+
+RC_GTEST_PROP(KernelTest, Portions_added_in_order_give_the_sums_of_one_call_to_the_last_bit, ()) {
+  const Basis basis(kField, 10, 1.5);
+  const std::vector<Vec2> positions = any_positions(500);
+  const std::vector<double> weights(positions.size(), 0.02);
+  Kernel kernel(basis);
+  Coefficients sum = Coefficients::Zero(11, 11);
+  Coefficients sum_of_portions = sum;
+  kernel.add_basis(positions, weights, sum);
+  for (std::size_t first = 0; first < positions.size(); first += Kernel::kPortion) {
+    const std::size_t size = std::min(Kernel::kPortion, positions.size() - first);
+    Coefficients portion = Coefficients::Zero(11, 11);
+    kernel.add_basis(std::span(positions).subspan(first, size), std::span(weights).subspan(first, size), portion);
+    sum_of_portions += portion;
+  }
+  RC_ASSERT(sum == sum_of_portions);
 }
 
 TEST(KernelTest, Nothing_pushes_across_the_border) {
