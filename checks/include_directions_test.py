@@ -71,6 +71,9 @@ class IncludeDirections(unittest.TestCase):
     def test_a_pure_room_has_the_standard_library_and_Eigen(self):
         self.assert_accepted("vigil/core/field/a.hpp", "#include <Eigen/Core>\n#include <vector>\n#include <chrono>\n")
 
+    def test_a_pure_room_has_the_processor_s_vector_instructions(self):
+        self.assert_accepted("vigil/core/ergodic/a.cpp", "#include <immintrin.h>\n")
+
     def test_only_tests_have_test_libraries(self):
         self.assert_accepted("vigil/core/field/a_test.cpp", "#include <gtest/gtest.h>\n#include <rapidcheck/gtest.h>\n")
         self.assert_refused("vigil/runtime/a.cpp", "#include <gtest/gtest.h>\n")

@@ -13,7 +13,7 @@ namespace vigil::ergodic {
 /// with every instruction set that it may have (lanes_code.hpp). A drone's gradient is the same to the last bit
 /// whatever its place among the others, and nothing depends on how the caller's data are aligned.
 ///
-/// Owns its work space (24 KiB for K = 10, 46 KiB for K = 20, 165 KiB for K = 64), which holds nothing from one call to
+/// Owns its work space (24 KiB for K = 10, 46 KiB for K = 20, 163 KiB for K = 64), which holds nothing from one call to
 /// the next: a copy costs as much and works alike. No call allocates. One thread at a time. The oracle is in
 /// literal_kernel.hpp.
 class Kernel {
