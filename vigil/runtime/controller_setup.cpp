@@ -1,6 +1,7 @@
 #include "vigil/runtime/controller_setup.hpp"
 
 #include "vigil/core/field/density.hpp"
+#include "vigil/runtime/fault_setup.hpp"
 #include "vigil/runtime/mission_setup.hpp"
 
 namespace vigil::runtime {
@@ -40,6 +41,7 @@ swarm::SwarmParameters swarm_parameters(const Mission& mission, swarm::Intent fi
   parameters.observation_delay_s = observation_delay_s(mission);
   parameters.only_active_are_obstacles = mission.safety.obstacles == Obstacles::kActiveOnly;
   parameters.health = health_parameters(mission.health);
+  parameters.faults = fault_parameters(mission);
   parameters.first_intent = first_intent;
   const field::WorldFrame frame = world_frame(mission);
   for (const DroneEntry& drone : mission.drones) parameters.starts.push_back(frame.point_to_field(drone.start_m));

@@ -28,6 +28,78 @@ std::string battery_in_words(const swarm::DroneSnapshot& drone) {
   return fmt::format("{:.0f} %", 100.0 * drone.battery);
 }
 
+/// Whether what a monitor found is why a drone does what it does.
+bool explains(swarm::Fault fault, Activity activity) {
+  switch (activity) {
+    case Activity::kTrackingLost:
+      return fault == swarm::Fault::kFrozen || fault == swarm::Fault::kJumped || fault == swarm::Fault::kSwapped ||
+             fault == swarm::Fault::kDisagreeing;
+    case Activity::kNotFollowing:
+      return fault == swarm::Fault::kNotFollowing;
+    case Activity::kOutside:
+      return fault == swarm::Fault::kOutside;
+    case Activity::kGrounded:
+    case Activity::kLanding:
+    case Activity::kEmergencyStop:
+    case Activity::kOverridden:
+    case Activity::kVehicleFailed:
+      return fault == swarm::Fault::kOwnMode;
+    default:
+      return false;
+  }
+}
+
+/// The words for what a monitor found, with its evidence where there is any (a recording keeps none).
+EventWords fault_words(std::string_view id, const swarm::FaultReport& fault, VehicleMode mode,
+                       const std::string& lost) {
+  const bool has_evidence = fault.threshold > 0.0;
+  const auto beyond = [&](std::string_view what) {
+    if (!has_evidence) return std::string();
+    return fmt::format(": {:.2f} m {}, at most {:.2f} m can be", fault.measured, what, fault.threshold);
+  };
+  const std::string hovers = "it is told to hover where it is expected, the others keep farther away; " + lost;
+  switch (fault.kind) {
+    case swarm::Fault::kFrozen:
+      return {Severity::kAlarm,
+              fmt::format("{}: its tracker repeats one place{}", id,
+                          has_evidence ? fmt::format(" for {:.2f} s", fault.measured) : ""),
+              hovers, "restart its tracker; it covers again by itself once its places change"};
+    case swarm::Fault::kJumped:
+      return {Severity::kAlarm,
+              fmt::format("{} is seen where it cannot be{}", id,
+                          has_evidence ? fmt::format(": {:.2f} m from where it was", fault.measured) : ""),
+              hovers, "look where it really is; it is believed again once it is seen there steadily"};
+    case swarm::Fault::kSwapped:
+      return {Severity::kAlarm, fmt::format("{} is seen in another drone's place", id), hovers,
+              "check the tracker's names; it covers again by itself once they are right"};
+    case swarm::Fault::kDisagreeing:
+      return {Severity::kAlarm,
+              fmt::format("{}: its velocity is not that of its places{}", id, beyond("apart within a second")), hovers,
+              "land it and check its estimator"};
+    case swarm::Fault::kNotFollowing:
+      return {Severity::kAlarm,
+              fmt::format("{} does not fly what it is told{}", id, beyond("from where its orders lead")),
+              "it is told to hover, the others give way to it; " + lost,
+              "land it or let a pilot take it; it covers again by itself once it follows"};
+    case swarm::Fault::kOutside:
+      return {Severity::kAlarm, fmt::format("{} has left the field{}", id, beyond("outside")),
+              "it is told to come back; " + lost, "watch it; stop its motors if it is a danger"};
+    case swarm::Fault::kOwnMode:
+    case swarm::Fault::kNone:
+      break;
+  }
+  const std::string next = "ask who has it; once it is on the ground, take off again";
+  if (mode == VehicleMode::kManual)
+    return {Severity::kAlarm, fmt::format("a pilot flies {} though nobody here said so", id),
+            "the others give way to it; " + lost, next};
+  if (mode == VehicleMode::kFailed)
+    return {Severity::kAlarm, fmt::format("{} says that it failed", id), "it follows nobody; " + lost,
+            "clear the ground below it; stop its motors if it is a danger"};
+  if (mode == VehicleMode::kGrounded) return {Severity::kAlarm, fmt::format("{} came down by itself", id), lost, next};
+  return {Severity::kAlarm, fmt::format("{} {} by itself", id, mode == VehicleMode::kFalling ? "falls" : "lands"),
+          "the others keep away from it; " + lost, next};
+}
+
 }  // namespace
 
 std::string_view name_of(Severity severity) { return kSeverityWords.at(static_cast<std::size_t>(severity)); }
@@ -35,6 +107,7 @@ std::string_view name_of(Severity severity) { return kSeverityWords.at(static_ca
 EventWords words_for(std::string_view id, Activity after, const swarm::DroneSnapshot& drone, std::size_t active,
                      std::size_t drones) {
   const std::string lost = who_takes_over(active, drones);
+  if (explains(drone.fault.kind, after)) return fault_words(id, drone.fault, drone.mode, lost);
   switch (after) {
     case Activity::kActive:
       return {Severity::kInfo, fmt::format("{} covers", id), who_covers(active, drones), ""};
@@ -80,10 +153,19 @@ EventWords words_for(std::string_view id, Activity after, const swarm::DroneSnap
     case Activity::kTravelling:
       return {Severity::kInfo, fmt::format("{} flies to a place", id), "it waits there; " + lost,
               "resume sends it back to coverage"};
+    case Activity::kNotFollowing:
+      return fault_words(id, {.kind = swarm::Fault::kNotFollowing}, drone.mode, lost);
+    case Activity::kOutside:
+      return fault_words(id, {.kind = swarm::Fault::kOutside}, drone.mode, lost);
     case Activity::kRecovering:
       break;
   }
   return {Severity::kInfo, fmt::format("{} is healthy again", id), "it covers in a moment", ""};
+}
+
+EventWords words_for_fault(std::string_view id, const swarm::DroneSnapshot& drone, std::size_t active,
+                           std::size_t drones) {
+  return fault_words(id, drone.fault, drone.mode, who_covers(active, drones));
 }
 
 std::string_view after_restart(bool has_real_drones) {

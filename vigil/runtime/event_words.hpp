@@ -25,6 +25,10 @@ struct EventWords {
 [[nodiscard]] EventWords words_for(std::string_view id, swarm::Activity after, const swarm::DroneSnapshot& drone,
                                    std::size_t active, std::size_t drones);
 
+/// Something was found to be wrong with a drone while its activity stayed what it was.
+[[nodiscard]] EventWords words_for_fault(std::string_view id, const swarm::DroneSnapshot& drone, std::size_t active,
+                                         std::size_t drones);
+
 /// What drones do once a program that died is started again with its state.
 [[nodiscard]] std::string_view after_restart(bool has_real_drones);
 

@@ -2,6 +2,7 @@
 
 #include <chrono>
 #include <cstddef>
+#include <cstdint>
 #include <span>
 
 #include "vigil/swarm/drone_id.hpp"
@@ -42,6 +43,25 @@ struct TruthSample {
   swarm::VehicleMode mode = swarm::VehicleMode::kUnknown;
 };
 
+enum class MishapKind : std::uint8_t {
+  kFreezeTracking,  ///< the tracker goes on telling its last place, with fresh stamps
+  kShiftTracking,   ///< the tracker sees it `value` (m) from where it is
+  kSwapTracking,    ///< the tracker takes it for `other`, and that one for it
+  kSkewVelocity,    ///< its velocity is reported with `value` (m/s) added
+  kIgnoreOrders,    ///< it hears, and flies on by the last velocity that it followed
+  kDrift,           ///< it flies `value` (m/s) beside what it is told
+  kLandByItself,    ///< it lands though nobody asked; for_s means nothing
+  kTakenByPilot     ///< a pilot has it though nobody said so, and flies `value` (m/s)
+};
+
+/// Something that happens to one drone for a while. Field frame.
+struct Mishap {
+  MishapKind kind = MishapKind::kFreezeTracking;
+  double for_s = 0.0;
+  Vec2 value = Vec2::Zero();
+  swarm::DroneId other{};  ///< kSwapTracking: another drone
+};
+
 /// A fleet whose time somebody else turns: simulators.
 class VirtualFleet : public Fleet {
  public:
@@ -56,6 +76,7 @@ class VirtualFleet : public Fleet {
   virtual void hide(swarm::DroneId drone, double for_s) noexcept = 0;  ///< the tracker does not see it for so long
   /// Nothing passes between it and the ground for so long, in either direction.
   virtual void cut_link(swarm::DroneId drone, double for_s) noexcept = 0;
+  virtual void befall(swarm::DroneId drone, const Mishap& mishap) noexcept = 0;
 };
 
 }  // namespace vigil::runtime

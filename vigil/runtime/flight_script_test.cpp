@@ -20,6 +20,7 @@ class NotingFleet final : public VirtualFleet {
   void give_back(swarm::DroneId) noexcept override { ++given_back; }
   void hide(swarm::DroneId, double for_s) noexcept override { hidden_s = for_s; }
   void cut_link(swarm::DroneId, double for_s) noexcept override { cut_s = for_s; }
+  void befall(swarm::DroneId, const Mishap&) noexcept override {}
 
   std::vector<std::size_t> failed;
   Vec2 taken_velocity = Vec2::Zero();

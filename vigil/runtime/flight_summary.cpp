@@ -8,6 +8,7 @@
 
 #include "vigil/runtime/goal_throughput.hpp"
 #include "vigil/runtime/mission_description.hpp"
+#include "vigil/swarm/names.hpp"
 
 namespace vigil::runtime {
 namespace {
@@ -25,6 +26,21 @@ std::vector<double> times_to_ask(const Mission& mission) {
 /// JSON has no infinity: what never was is null.
 nlohmann::ordered_json finite_or_null(double value) {
   return std::isfinite(value) ? nlohmann::ordered_json(value) : nlohmann::ordered_json(nullptr);
+}
+
+/// Whether a drone in it is lost to coverage though nobody wished it.
+bool is_of_a_fault(swarm::Activity activity) {
+  switch (activity) {
+    case swarm::Activity::kTrackingLost:
+    case swarm::Activity::kLinkLost:
+    case swarm::Activity::kVehicleFailed:
+    case swarm::Activity::kBatteryLow:
+    case swarm::Activity::kNotFollowing:
+    case swarm::Activity::kOutside:
+      return true;
+    default:
+      return false;
+  }
 }
 
 double quantile(std::vector<float> values, double share) {
@@ -58,6 +74,7 @@ void SummaryBuilder::add(const swarm::Snapshot& snapshot, double tick_us) {
   ++summary_.ticks;
   tick_us_.push_back(static_cast<float>(tick_us));
   if (snapshot.fallback) ++summary_.fallback_ticks;
+  count_faults(snapshot);
   if (summary_.active.empty() || summary_.active.back().second != snapshot.active)
     summary_.active.emplace_back(snapshot.time_s, snapshot.active);
   if (!snapshot.has_metric) return;
@@ -67,6 +84,24 @@ void SummaryBuilder::add(const swarm::Snapshot& snapshot, double tick_us) {
   for (; next_ask_ < ask_percent_at_s_.size() && ask_percent_at_s_[next_ask_] <= snapshot.time_s + 0.5 * dt_s_;
        ++next_ask_)
     summary_.percent_at.emplace_back(ask_percent_at_s_[next_ask_], snapshot.metric_percent);
+}
+
+/// Each time a drone is found to be lost, by the monitor's word where it has one.
+void SummaryBuilder::count_faults(const swarm::Snapshot& snapshot) {
+  for (const swarm::Event& event : snapshot.events) {
+    const bool is_lost = event.kind == swarm::EventKind::kActivityChanged && is_of_a_fault(event.after);
+    const bool is_by_itself = event.fault == swarm::Fault::kOwnMode && event.after != swarm::Activity::kGrounded;
+    const bool is_found = event.kind == swarm::EventKind::kFaultNoticed ||
+                          (event.kind == swarm::EventKind::kActivityChanged && is_by_itself) ||
+                          (is_lost && event.fault != swarm::Fault::kNone);
+    if (!is_found && !is_lost) continue;
+    const std::string_view word = is_found ? name_of(event.fault) : name_of(event.after);
+    const auto known = std::ranges::find(summary_.faults, word, &std::pair<std::string, std::uint64_t>::first);
+    if (known == summary_.faults.end())
+      summary_.faults.emplace_back(word, 1);
+    else
+      ++known->second;
+  }
 }
 
 FlightSummary SummaryBuilder::finish(const AuditTotals& audit,
@@ -108,6 +143,8 @@ nlohmann::ordered_json to_json(const FlightSummary& summary) {
   for (const auto& [at_s, percent] : summary.percent_at) percent_at[fmt::format("{}", at_s)] = percent;
   Json revisit = Json::object();
   for (const auto& [area, worst_s] : summary.worst_revisit_s) revisit[area] = worst_s;
+  Json faults = Json::object();
+  for (const auto& [word, count] : summary.faults) faults[word] = count;
   Json active = Json::array();
   for (const auto& [at_s, count] : summary.active) active.push_back({at_s, count});
   const Json metric{{"first", summary.first_metric ? Json(*summary.first_metric) : Json(nullptr)},
@@ -133,6 +170,7 @@ nlohmann::ordered_json to_json(const FlightSummary& summary) {
             {"speed_violations", summary.audit.speed_violations},
             {"fallback_ticks", summary.fallback_ticks},
             {"worst_revisit_s", revisit},
+            {"faults", faults},
             {"active", active},
             {"tick_us", {{"p50", summary.tick_us_p50}, {"p99", summary.tick_us_p99}, {"max", summary.tick_us_max}}},
             {"accounting", summary.accounting},

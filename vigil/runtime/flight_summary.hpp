@@ -31,6 +31,7 @@ struct FlightSummary {
   std::uint64_t fallback_ticks = 0;
   std::optional<GoalTally> goals;                               ///< where the mission has goals
   std::vector<std::pair<std::string, double>> worst_revisit_s;  ///< per cluster and area
+  std::vector<std::pair<std::string, std::uint64_t>> faults;    ///< what was noticed, by its word, and how often
   std::vector<std::pair<double, std::size_t>> active;           ///< each change of |I_a(t)|
   double tick_us_p50 = 0.0;  ///< wall-clock, the only figures that differ between two runs of one seed
   double tick_us_p99 = 0.0;
@@ -57,6 +58,8 @@ class SummaryBuilder {
                                      const std::optional<GoalTally>& goals = std::nullopt) const;
 
  private:
+  void count_faults(const swarm::Snapshot& snapshot);
+
   FlightSummary summary_;
   std::vector<double> ask_percent_at_s_;  ///< ascending; those before next_ask_ are answered
   std::size_t next_ask_ = 0;

@@ -47,6 +47,7 @@ class ObedientFleet final : public VirtualFleet {
   void give_back(swarm::DroneId drone) noexcept override { truth_[drone.index()].mode = swarm::VehicleMode::kFlying; }
   void hide(swarm::DroneId, double) noexcept override {}
   void cut_link(swarm::DroneId, double) noexcept override {}
+  void befall(swarm::DroneId, const Mishap&) noexcept override {}
 
  private:
   std::vector<TruthSample> truth_;

@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "vigil/core/field/density.hpp"
+#include "vigil/runtime/fault_setup.hpp"
 #include "vigil/runtime/mission_description.hpp"
 #include "vigil/runtime/mission_setup.hpp"
 
@@ -257,6 +258,29 @@ std::string explain_world(const SimulationSection& simulation) {
   return text;
 }
 
+/// What a drone must not exceed to count as sound.
+std::string explain_faults(const Mission& mission) {
+  const dynamics::FaultBounds bounds = fault_parameters(mission).bounds;
+  std::string text = "faults\n";
+  text += line("jumped", fmt::format("farther than {} and {} from its last place, for {}", in_words(bounds.jump_m, "m"),
+                                     in_words(bounds.reach_m_s, "m/s"), in_words(bounds.confirm_s, "s")));
+  text += line("frozen", fmt::format("the same place for {}{}", in_words(bounds.frozen_s, "s"),
+                                     bounds.never_repeats ? "" : ", and orders lead elsewhere"));
+  text +=
+      line("disobeys", fmt::format("{} from where its orders of the last {} lead, beside what those explain that may "
+                                   "have got lost for {}",
+                                   in_words(bounds.residual_m, "m"), in_words(1.0 / bounds.residual_leak_per_s, "s"),
+                                   in_words(bounds.held_s, "s")));
+  text +=
+      line("disagrees", fmt::format("its velocity and its places by {} within {}", in_words(bounds.disagreement_m, "m"),
+                                    in_words(1.0 / bounds.disagreement_leak_per_s, "s")));
+  text += line("outside", fmt::format("{} beyond the border", in_words(bounds.outside_m, "m")));
+  text +=
+      line("lost", fmt::format("not seen for {}, not heard for {}", in_words(mission.health.tracking_timeout_s, "s"),
+                               in_words(mission.health.link_timeout_s, "s")));
+  return text;
+}
+
 std::string explain_simulation(const Mission& mission) {
   const SimulationSection& simulation = mission.simulation;
   std::string text = "simulation\n";
@@ -333,7 +357,7 @@ std::string explain(const Mission& mission) {
   std::string text = fmt::format("{}\n", mission.name);
   if (!mission.description.empty()) text += fmt::format("{}\n", mission.description);
   text += explain_field(mission) + explain_attention(mission) + explain_drones(mission) + explain_control(mission) +
-          explain_safety(mission) + explain_simulation(mission);
+          explain_safety(mission) + explain_faults(mission) + explain_simulation(mission);
   const std::vector<std::string> notes = notes_on(mission);
   if (!notes.empty()) text += "worth a second look\n";
   for (const std::string& note : notes) text += fmt::format("  - {}\n", note);

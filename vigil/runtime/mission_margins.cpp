@@ -27,17 +27,6 @@ double average_delay_s(const Mission& mission) {
          assumed_vehicle(mission).horizontal.response_delay_s;
 }
 
-/// The length of silence that one burst in a million exceeds: of packets lost, each but the first follows with the
-/// probability 1 - 1 / burst_packets.
-double longest_burst_s(const Mission& mission) {
-  constexpr double kOneIn = 1e6;
-  const LinkSection& link = mission.simulation.link;
-  if (link.loss <= 0.0) return 0.0;
-  const double stays = 1.0 - 1.0 / link.burst_packets;
-  const double more = stays > 0.0 ? std::ceil(-std::log(kOneIn) / std::log(stays)) : 0.0;
-  return (1.0 + more) * period_s(mission, link.rate_hz);
-}
-
 double unsteady_delay_s(const Mission& mission) {
   const double off = std::abs(command_delay_s(mission) - derived_command_delay_s(mission));
   if (is_steady(mission)) return off;
@@ -65,6 +54,16 @@ dynamics::VehicleModel assumed_vehicle(const Mission& mission) {
       break;
   }
   return vehicle_model(mission);
+}
+
+/// Of packets lost, each but the first follows with the probability 1 - 1 / burst_packets.
+double longest_burst_s(const Mission& mission) {
+  constexpr double kOneIn = 1e6;
+  const LinkSection& link = mission.simulation.link;
+  if (link.loss <= 0.0) return 0.0;
+  const double stays = 1.0 - 1.0 / link.burst_packets;
+  const double more = stays > 0.0 ? std::ceil(-std::log(kOneIn) / std::log(stays)) : 0.0;
+  return (1.0 + more) * period_s(mission, link.rate_hz);
 }
 
 double simulated_command_delay_s(const Mission& mission) { return average_delay_s(mission); }

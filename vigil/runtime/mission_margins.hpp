@@ -26,6 +26,9 @@ namespace vigil::runtime {
 /// that one in a million is longer than.
 [[nodiscard]] double derived_silence_s(const Mission& mission);
 
+/// The length of silence that one burst of lost packets in a million exceeds.
+[[nodiscard]] double longest_burst_s(const Mission& mission);
+
 /// What the mission would be given where it gives nothing. Meaningless for the barrier `paper`.
 [[nodiscard]] Margins derived_margins(const Mission& mission);
 

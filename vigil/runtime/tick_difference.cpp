@@ -22,6 +22,7 @@ bool is_same(const Value& a, const Value& b) {
 std::string shown(double value) { return fmt::format("{} ({:a})", value, value); }
 std::string shown(bool value) { return value ? "yes" : "no"; }
 std::string shown(swarm::Activity value) { return std::string(swarm::name_of(value)); }
+std::string shown(swarm::Fault value) { return std::string(swarm::name_of(value)); }
 std::string shown(swarm::Action value) { return std::string(swarm::name_of(value)); }
 std::string shown(swarm::Idle value) { return std::string(swarm::name_of(value)); }
 std::string shown(safety::RowKind value) { return fmt::format("kind {}", static_cast<int>(value)); }
@@ -74,6 +75,7 @@ void compare(Comparison& comparison, const safety::FilterReport& a, const safety
 
 void compare(Comparison& comparison, const swarm::DroneSnapshot& a, const swarm::DroneSnapshot& b) {
   comparison.of("activity", a.activity, b.activity)
+      .of("fault", a.fault.kind, b.fault.kind)
       .of_vector("nominal velocity, x", "nominal velocity, y", a.u_nom, b.u_nom)
       .of("action", a.order.action, b.order.action)
       .of_vector("velocity asked for, x", "velocity asked for, y", a.order.velocity, b.order.velocity)

@@ -3,7 +3,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include <fmt/format.h>
+
 #include "vigil/runtime/controller_setup.hpp"
+#include "vigil/runtime/event_words.hpp"
 #include "vigil/runtime/mission_setup.hpp"
 #include "vigil/swarm/names.hpp"
 
@@ -62,6 +65,14 @@ void VirtualFlight::watch_areas(double time_s) {
   for (field::RevisitLog& area : areas_) area.see(watchers_, footprint_radius_m_, time_s);
 }
 
+/// What was found to be wrong, with its evidence, and what to do about it.
+std::string VirtualFlight::fault_in_words(const swarm::Event& event) const {
+  const swarm::DroneSnapshot& drone = snapshot_.drones[event.drone.index()];
+  const std::string& id = mission_.drones[event.drone.index()].id;
+  const EventWords words = words_for_fault(id, drone, snapshot_.active, snapshot_.drones.size());
+  return fmt::format("{}; {}; {}", words.text, words.effect, words.next);
+}
+
 void VirtualFlight::log_snapshot_events() {
   if (recorder_ == nullptr) return;
   for (const swarm::Event& event : snapshot_.events) {
@@ -69,6 +80,10 @@ void VirtualFlight::log_snapshot_events() {
     if (event.kind == swarm::EventKind::kActivityChanged) {
       logged.what = name_of(event.after);
       logged.detail = "was " + std::string(name_of(event.before));
+      if (event.fault != swarm::Fault::kNone) logged.detail += "; " + fault_in_words(event);
+    } else if (event.kind == swarm::EventKind::kFaultNoticed) {
+      logged.what = name_of(event.fault);
+      logged.detail = fault_in_words(event);
     } else if (event.kind == swarm::EventKind::kWishRefused) {
       logged.what = "refused";
       logged.detail = name_of(event.wish);

@@ -40,6 +40,7 @@ class VirtualFlight {
   void watch(const std::string& name, std::vector<Vec2> places, double time_s);
   void watch_areas(double time_s);
   void log_snapshot_events();
+  [[nodiscard]] std::string fault_in_words(const swarm::Event& event) const;
 
   Mission mission_;
   VirtualFleet& fleet_;

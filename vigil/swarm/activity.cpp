@@ -17,14 +17,22 @@ bool is_seen(const DroneMemory& memory) { return memory.last_good.age_s != Drone
 
 bool on_ground(VehicleMode mode) { return mode == VehicleMode::kGrounded; }
 
+/// Nobody knows where it is, or how it moves.
+bool is_unbelievable(Fault fault) {
+  return fault == Fault::kFrozen || fault == Fault::kJumped || fault == Fault::kSwapped || fault == Fault::kDisagreeing;
+}
+
 /// What is wrong with the drone itself, whatever the operator wishes; kActive where nothing is.
 Activity fault_of(const DroneMemory& memory, const HealthParameters& health) {
   const DroneObservation& seen = memory.last_good;
   if (!is_seen(memory)) return Activity::kNeverSeen;
   if (seen.mode == VehicleMode::kFailed) return Activity::kVehicleFailed;
   if (seen.mode == VehicleMode::kFalling) return Activity::kEmergencyStop;
-  if (seen.age_s > health.tracking_timeout_s) return Activity::kTrackingLost;
+  // A silent link explains a lost position, too: vehicles may send where they are over it.
   if (seen.link_age_s > health.link_timeout_s) return Activity::kLinkLost;
+  if (seen.age_s > health.tracking_timeout_s || is_unbelievable(memory.fault)) return Activity::kTrackingLost;
+  if (memory.fault == Fault::kOutside) return Activity::kOutside;
+  if (memory.fault == Fault::kNotFollowing) return Activity::kNotFollowing;
   if (seen.battery < health.battery_reserve) return Activity::kBatteryLow;  // false for NaN: not reported
   return Activity::kActive;
 }
@@ -155,6 +163,8 @@ Action action_for(const DroneMemory& memory) noexcept {
     case Activity::kTravelling:
     case Activity::kTrackingLost:
     case Activity::kLinkLost:
+    case Activity::kNotFollowing:
+    case Activity::kOutside:
       return memory.intent == Intent::kLand ? Action::kLand : Action::kVelocity;
     case Activity::kNeverSeen:  // who says that it flies is kept in its place, and can be brought down
       if (!in_the_air(memory)) return Action::kNone;

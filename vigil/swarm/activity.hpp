@@ -4,6 +4,7 @@
 #include <optional>
 
 #include "vigil/swarm/command.hpp"
+#include "vigil/swarm/fault.hpp"
 #include "vigil/swarm/observation.hpp"
 
 namespace vigil::swarm {
@@ -38,17 +39,19 @@ enum class Activity : std::uint8_t {
   kGrounded,   ///< on the ground
   kTakingOff,
   kLanding,
-  kEmergencyStop,  ///< its motors were stopped
-  kOverridden,     ///< a pilot has it
-  kMarkedFailed,   ///< an operator declared it failed
-  kVehicleFailed,  ///< it says itself that it failed
-  kTrackingLost,   ///< its position is too old or not a number
-  kLinkLost,       ///< it has not been heard for too long
-  kBatteryLow,     ///< below the reserve: it lands
-  kHeld,           ///< an operator holds it, or it flies although nobody asked it to
-  kRecovering,     ///< healthy again, for less than recovery_s
-  kTravelling,     ///< on its way to a place, or waiting there
-  kAboutToTakeOff  ///< on the ground, and told to rise: as soon as it can, and the air above it is clear
+  kEmergencyStop,   ///< its motors were stopped
+  kOverridden,      ///< a pilot has it
+  kMarkedFailed,    ///< an operator declared it failed
+  kVehicleFailed,   ///< it says itself that it failed
+  kTrackingLost,    ///< its position is too old or not a number, or cannot be believed
+  kLinkLost,        ///< it has not been heard for too long
+  kBatteryLow,      ///< below the reserve: it lands
+  kHeld,            ///< an operator holds it, or it flies although nobody asked it to
+  kRecovering,      ///< healthy again, for less than recovery_s
+  kTravelling,      ///< on its way to a place, or waiting there
+  kAboutToTakeOff,  ///< on the ground, and told to rise: as soon as it can, and the air above it is clear
+  kNotFollowing,    ///< it does not fly what it is told
+  kOutside          ///< it left the field, and is told to come back
 };
 
 /// What the vehicle is asked to do, every tick anew (so a lost message costs one tick).
@@ -61,6 +64,8 @@ struct DroneMemory {
   DroneObservation last_good;  ///< the newest observation whose numbers were usable; its ages count on
   bool is_expected = false;    ///< before it is seen: last_good.position is where the mission says that it starts
   double healthy_s = 0.0;      ///< how long nothing has been wrong with it
+  Fault fault = Fault::kNone;  ///< what a monitor found
+  bool has_new_fault = false;  ///< in this tick
   bool is_recovering = false;  ///< something was wrong with it: recovery_s applies
   Activity activity = Activity::kNeverSeen;
 };

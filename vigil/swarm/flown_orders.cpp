@@ -29,6 +29,11 @@ void FlownOrders::remember(std::span<const Vec2> u) noexcept {
   std::copy(u.begin(), u.end(), velocities_.begin() + static_cast<std::ptrdiff_t>(newest_ * drones_));
 }
 
+const Vec2& FlownOrders::ordered(std::size_t drone, std::size_t ticks_ago) const noexcept {
+  const std::size_t ago = std::min(ticks_ago, kept_ - 1);
+  return velocities_[(newest_ + kept_ - ago) % kept_ * drones_ + drone];
+}
+
 Motion FlownOrders::ahead(std::size_t drone, const Motion& seen, double span_s, double lag_s) const noexcept {
   constexpr double kRounding = 1e-6;  // of a tick: a span of whole ticks must not take in a sliver of another one
   const double span = std::min(span_s / dt_s_, static_cast<double>(kept_));

@@ -25,6 +25,9 @@ class FlownOrders {
   /// The orders of one tick, one per drone; zero for one that is not ordered to fly anywhere.
   void remember(std::span<const Vec2> u) noexcept;
 
+  /// What a drone was ordered to fly so many ticks before the newest; what exceeds the memory is the oldest.
+  [[nodiscard]] const Vec2& ordered(std::size_t drone, std::size_t ticks_ago) const noexcept;
+
   /// Where a drone that was seen like `seen`, and that has flown the orders of the last `span_s` seconds since, is, if
   /// its velocity follows them with v' = (u - v)/lag. With span_s = age of the observation + delay of commands that is
   /// the moment at which the next order begins to act. Before the first order it stood still. Precondition: lag_s >= 0,

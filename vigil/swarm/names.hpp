@@ -13,10 +13,12 @@ namespace vigil::swarm {
 
 inline constexpr std::array<std::string_view, 8> kModeWords{"unknown", "grounded", "taking_off", "flying",
                                                             "landing", "falling",  "manual",     "failed"};
-inline constexpr std::array<std::string_view, 16> kActivityWords{
-    "active",     "never_seen",    "grounded",       "taking_off",       "landing",   "emergency_stop",
-    "overridden", "marked_failed", "vehicle_failed", "tracking_lost",    "link_lost", "battery_low",
-    "held",       "recovering",    "travelling",     "about_to_take_off"};
+inline constexpr std::array<std::string_view, 18> kActivityWords{
+    "active",     "never_seen",    "grounded",       "taking_off",        "landing",       "emergency_stop",
+    "overridden", "marked_failed", "vehicle_failed", "tracking_lost",     "link_lost",     "battery_low",
+    "held",       "recovering",    "travelling",     "about_to_take_off", "not_following", "outside"};
+inline constexpr std::array<std::string_view, 8> kFaultWords{"none",        "frozen",        "jumped",  "swapped",
+                                                             "disagreeing", "not_following", "outside", "own_mode"};
 inline constexpr std::array<std::string_view, 5> kActionWords{"none", "take_off", "land", "velocity", "stop_motors"};
 inline constexpr std::array<std::string_view, 11> kCommandWords{
     "take_off",       "land",     "hold",      "go_to",      "resume",      "mark_failed",
@@ -33,6 +35,8 @@ template <>
 inline constexpr std::span<const std::string_view> kWords<VehicleMode> = kModeWords;
 template <>
 inline constexpr std::span<const std::string_view> kWords<Activity> = kActivityWords;
+template <>
+inline constexpr std::span<const std::string_view> kWords<Fault> = kFaultWords;
 template <>
 inline constexpr std::span<const std::string_view> kWords<Action> = kActionWords;
 template <>
@@ -57,7 +61,8 @@ template <typename Enum>
 }
 
 static_assert(name_of(VehicleMode::kFailed) == kModeWords.back());
-static_assert(name_of(Activity::kAboutToTakeOff) == kActivityWords.back());
+static_assert(name_of(Activity::kOutside) == kActivityWords.back());
+static_assert(name_of(Fault::kOwnMode) == kFaultWords.back());
 static_assert(name_of(Action::kStopMotors) == kActionWords.back());
 static_assert(name_of(CommandKind::kStartAfresh) == kCommandWords.back());
 static_assert(name_of(Intent::kCalledBack) == kIntentWords.back());

@@ -37,6 +37,7 @@ struct SwarmParameters {
   /// The paper's reading: a drone that is not active is no obstacle, wherever it is.
   bool only_active_are_obstacles = false;
   HealthParameters health;
+  FaultParameters faults;
   Intent first_intent = Intent::kStayDown;  ///< of every drone before any command
   /// Where each drone is expected before it is seen, field frame; none where nobody knows.
   std::vector<Vec2> starts;

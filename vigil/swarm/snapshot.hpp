@@ -6,6 +6,7 @@
 #include "vigil/core/safety/filter.hpp"
 #include "vigil/swarm/activity.hpp"
 #include "vigil/swarm/drone_id.hpp"
+#include "vigil/swarm/fault.hpp"
 
 namespace vigil::swarm {
 
@@ -25,6 +26,7 @@ struct DroneSnapshot {
   double battery = 0.0;  ///< share of full; NaN: not reported
   VehicleMode mode = VehicleMode::kUnknown;
   Activity activity = Activity::kNeverSeen;
+  FaultReport fault;  ///< what the monitor found, with its evidence
   bool is_obstacle = false;
   Vec2 u_nom = Vec2::Zero();    ///< what coverage wanted
   DroneOrder order;             ///< what was asked of it
@@ -34,14 +36,22 @@ struct DroneSnapshot {
 /// Why no drone covers anything.
 enum class Idle : std::uint8_t { kNone, kNoTargets, kNoActiveDrone };
 
-enum class EventKind : std::uint8_t { kActivityChanged, kWishAccepted, kWishRefused, kTargetChanged, kStartedAfresh };
+enum class EventKind : std::uint8_t {
+  kActivityChanged,
+  kWishAccepted,
+  kWishRefused,
+  kTargetChanged,
+  kStartedAfresh,
+  kFaultNoticed
+};
 
 struct Event {
   EventKind kind = EventKind::kActivityChanged;
-  DroneId drone{};                         ///< of the first three kinds
+  DroneId drone{};                         ///< of the first three kinds, and kFaultNoticed
   Activity before = Activity::kNeverSeen;  ///< kActivityChanged
   Activity after = Activity::kNeverSeen;   ///< kActivityChanged
   CommandKind wish = CommandKind::kHold;   ///< kWishAccepted, kWishRefused
+  Fault fault = Fault::kNone;              ///< of both; kFaultNoticed: a new one, and its activity stays
 };
 
 /// All that one tick decided, for recorders and displays. Sized once; a tick allocates nothing in it.

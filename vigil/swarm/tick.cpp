@@ -44,6 +44,15 @@ double longest_prediction_s(const SwarmParameters& parameters) {
   return std::min(parameters.health.tracking_timeout_s + parameters.command_delay_s, kLongestPredictionS);
 }
 
+WatchSetup watch_setup(const SwarmParameters& parameters) {
+  return {.parameters = parameters.faults,
+          .field = parameters.field,
+          .dt_s = parameters.dt_s,
+          .command_delay_s = parameters.command_delay_s,
+          .observation_delay_s = parameters.observation_delay_s,
+          .health = parameters.health};
+}
+
 bool fits(const CoverageTarget& target, const ergodic::Basis& basis) {
   const bool has_shape =
       target.phi_k.rows() == basis.indices_per_axis() && target.phi_k.cols() == basis.indices_per_axis();
@@ -53,7 +62,7 @@ bool fits(const CoverageTarget& target, const ergodic::Basis& basis) {
 /// Whether the filter computes the drone's velocity: it flies by our commands, and where it is, is known.
 bool is_steered(Activity activity) {
   return activity == Activity::kActive || activity == Activity::kTravelling || activity == Activity::kHeld ||
-         activity == Activity::kRecovering;
+         activity == Activity::kRecovering || activity == Activity::kOutside;
 }
 
 /// Whether it goes up or down by itself over one place, or hovers because it is not tracked: commanded to stand still,
@@ -66,7 +75,7 @@ bool stands_still(Activity activity) {
 /// Whether it may move sideways although nobody here steers it.
 bool may_wander(Activity activity) {
   return activity == Activity::kOverridden || activity == Activity::kMarkedFailed ||
-         activity == Activity::kVehicleFailed || activity == Activity::kLinkLost;
+         activity == Activity::kVehicleFailed || activity == Activity::kLinkLost || activity == Activity::kNotFollowing;
 }
 
 /// How fast it may come closer by itself. A pilot may do anything; what has failed or is not heard drifts, and is seen
@@ -100,6 +109,7 @@ SwarmState::SwarmState(const SwarmParameters& parameters)
       filter_(parameters.barrier, parameters.field, parameters.drones),
       air_(parameters.field, safety::barrier_radius(parameters.barrier), parameters.drones),
       flown_(parameters.drones, parameters.dt_s, longest_prediction_s(parameters)),
+      monitor_(watch_setup(parameters), parameters.drones),
       target_(no_target(basis_)),
       drones_(parameters.drones),
       notes_((parameters.drones + kPart - 1) / kPart),
@@ -161,6 +171,7 @@ void SwarmState::become_model(double dt_s) {
   goal_seeker_.set_tick(dt_s);
   filter_ = safety::Filter(parameters_.barrier, parameters_.field, parameters_.drones);
   flown_ = FlownOrders(parameters_.drones, dt_s, longest_prediction_s(parameters_));
+  monitor_ = FaultMonitor({}, 0);
 }
 
 void SwarmState::set_target(const CoverageTarget& target) noexcept {
@@ -220,6 +231,11 @@ void SwarmState::for_each_drone(parallel::Workers* workers, Body&& body) noexcep
   });
 }
 
+const DroneObservation& SwarmState::believed(std::size_t index,
+                                             std::span<const DroneObservation> observations) const noexcept {
+  return monitor_.watches() ? monitor_.believed(index) : observations[index];
+}
+
 bool SwarmState::is_any(bool PartNote::* what) const noexcept {
   return std::any_of(notes_.begin(), notes_.end(), [&](const PartNote& note) { return note.*what; });
 }
@@ -229,11 +245,14 @@ void SwarmState::judge_drones(std::span<const DroneObservation> observations, bo
   std::fill(notes_.begin(), notes_.end(), PartNote{});
   for_each_drone(workers, [&](std::size_t index, PartNote& note) {
     DroneMemory& drone = drones_[index];
-    if (!are_remembered) remember(drone, observations[index], parameters_.dt_s);
+    if (!are_remembered) remember(drone, believed(index, observations), parameters_.dt_s);
     activities_before_[index] = drone.activity;
+    const Fault fault_before = drone.fault;
+    if (monitor_.watches()) drone.fault = monitor_.report(index).kind;
+    drone.has_new_fault = drone.fault != Fault::kNone && drone.fault != fault_before;
     judge(drone, parameters_.health, parameters_.dt_s);
     predict(index);
-    note.has_change = note.has_change || drone.activity != activities_before_[index];
+    note.has_change = note.has_change || drone.activity != activities_before_[index] || drone.has_new_fault;
     note.active += drone.activity == Activity::kActive ? 1 : 0;
     note.has_traveller = note.has_traveller || drone.activity == Activity::kTravelling;
     note.has_starter = note.has_starter || wants_up(drone);
@@ -242,8 +261,11 @@ void SwarmState::judge_drones(std::span<const DroneObservation> observations, bo
   for (std::size_t index = 0; index < drones_.size(); ++index) {
     const Activity before = activities_before_[index];
     const Activity after = drones_[index].activity;
-    if (after != before)
-      out.note({.kind = EventKind::kActivityChanged, .drone = DroneId(index), .before = before, .after = after});
+    if (after == before && !drones_[index].has_new_fault) continue;
+    Event event{.kind = EventKind::kActivityChanged, .drone = DroneId(index), .before = before, .after = after};
+    if (after == before) event.kind = EventKind::kFaultNoticed;
+    event.fault = drones_[index].fault;
+    out.note(event);
   }
 }
 
@@ -266,7 +288,10 @@ Vec2 SwarmState::within_walls(const Vec2& place) const noexcept {
 /// delay.
 void SwarmState::predict(std::size_t index) noexcept {
   const DroneObservation& known = drones_[index].last_good;
-  const bool is_new = known.age_s < seen_ages_[index] + 0.5 * parameters_.dt_s;
+  const double aged_s = seen_ages_[index] + parameters_.dt_s;
+  const double rounding_s = 0.5 * parameters_.dt_s;
+  // What turns out to be older than it was said to be is news, too.
+  const bool is_new = known.age_s < aged_s - rounding_s || known.age_s > aged_s + rounding_s;
   seen_ages_[index] = known.age_s;
   const Motion seen{known.position, known.velocity};
   const bool is_paper = parameters_.barrier.kind == safety::BarrierKind::kPaper;
@@ -275,6 +300,8 @@ void SwarmState::predict(std::size_t index) noexcept {
   const Activity activity = drones_[index].activity;
   if (!is_paper && activity == Activity::kVehicleFailed) {
     ahead = {seen.position + lag_s * seen.velocity, Vec2::Zero()};
+  } else if (activity == Activity::kNotFollowing) {
+    ahead.position += known.age_s * seen.velocity;
   } else if (!is_paper && activity != Activity::kOverridden) {
     ahead = is_new ? flown_.ahead(index, seen, known.age_s + parameters_.command_delay_s, lag_s)
                    : flown_.ahead(index, motions_[index], parameters_.dt_s, lag_s);
@@ -441,6 +468,7 @@ void SwarmState::write_order(std::size_t index, DroneSnapshot& to) noexcept {
   to.battery = drone.last_good.battery;
   to.mode = drone.last_good.mode;
   to.activity = drone.activity;
+  to.fault = monitor_.watches() ? monitor_.report(index) : FaultReport{};
   to.is_obstacle = bodies_[index].is_obstacle;
   to.u_nom = u_nom_[index];
   to.order.action = action;
@@ -465,10 +493,11 @@ void tick(SwarmState& state, std::span<const DroneObservation> observations, std
   out.time_s = static_cast<double>(state.ticks_) * state.parameters_.dt_s;
   out.events.clear();
   out.lost_events = 0;
+  if (state.monitor_.watches()) state.monitor_.look(observations, state.drones_, state.motions_, state.flown_);
   const bool is_told = !commands.empty();  // a wish is judged by the newest observation
   if (is_told) {
     for (std::size_t index = 0; index < observations.size(); ++index)
-      remember(state.drones_[index], observations[index], state.parameters_.dt_s);
+      remember(state.drones_[index], state.believed(index, observations), state.parameters_.dt_s);
     state.take_commands(commands, out);
   }
   state.judge_drones(observations, is_told, out, workers);

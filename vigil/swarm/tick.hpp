@@ -11,6 +11,7 @@
 #include "vigil/core/parallel/workers.hpp"
 #include "vigil/core/safety/filter.hpp"
 #include "vigil/swarm/command.hpp"
+#include "vigil/swarm/fault_monitor.hpp"
 #include "vigil/swarm/flown_orders.hpp"
 #include "vigil/swarm/observation.hpp"
 #include "vigil/swarm/parameters.hpp"
@@ -80,6 +81,8 @@ class SwarmState {
   void take_commands(std::span<const Command> commands, Snapshot& out) noexcept;
   void take_wish(const Command& command, Snapshot& out) noexcept;
   void set_target(const CoverageTarget& target) noexcept;
+  [[nodiscard]] const DroneObservation& believed(std::size_t index,
+                                                 std::span<const DroneObservation> observations) const noexcept;
   void judge_drones(std::span<const DroneObservation> observations, bool are_remembered, Snapshot& out,
                     parallel::Workers* workers) noexcept;
   void predict(std::size_t index) noexcept;
@@ -109,6 +112,7 @@ class SwarmState {
   safety::Filter filter_;
   safety::NeighbourGrid air_;  ///< where drones are in the air, of a tick in which somebody wants to take off
   FlownOrders flown_;
+  FaultMonitor monitor_;
   CoverageTarget target_;
   double fade_delta_ = 0.0;
   double first_metric_ = 0.0;

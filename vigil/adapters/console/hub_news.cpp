@@ -281,6 +281,9 @@ void Hub::hear_swarm(const LiveEvent& event) {
     told.what = swarm::name_of(event.event.after);
     told.was = swarm::name_of(event.event.before);
     told.words = runtime::words_for(id, event.event.after, event.drone, event.active, frame_->snapshot.drones.size());
+  } else if (event.event.kind == swarm::EventKind::kFaultNoticed) {
+    told.what = swarm::name_of(event.event.fault);
+    told.words = runtime::words_for_fault(id, event.drone, event.active, frame_->snapshot.drones.size());
   } else if (event.event.kind == swarm::EventKind::kWishRefused && concerns_drone(event.event.wish)) {
     told.what = "refused";
     told.words = {Severity::kInfo, runtime::refusal_words(id, event.event.wish, event.drone), "", ""};

@@ -25,6 +25,7 @@ struct Put {
   }
   void count(std::size_t value) { writer.put(std::uint64_t{value}); }
   void index(int value) { writer.put(std::int32_t{value}); }
+  void limit(double value) { writer.put(value); }
   void places(const std::vector<Vec2>& values) {
     writer.count(2 * values.size());
     for (const Vec2& place : values)
@@ -49,6 +50,7 @@ struct Get {
   }
   void count(std::size_t& value) { value = reader.u64(); }
   void index(int& value) { value = reader.i32(); }
+  void limit(double& value) { value = reader.number(); }
   void places(std::vector<Vec2>& values) {
     const std::vector<double> numbers = reader.sequence<double>();
     if (numbers.size() % 2 != 0) throw RecordingError("the mission's message has a place without its y");
@@ -71,6 +73,7 @@ struct Sane {
   void operator()(const std::optional<double>& value) { (*this)(value.value_or(0.0)); }
   void count(std::size_t value) { holds = holds && value >= 1 && value <= kMostDrones; }
   void index(int value) { holds = holds && value >= 1 && value <= ergodic::Basis::kLargestIndex; }
+  void limit(double value) { holds = holds && value >= 0.0; }
   void places(const std::vector<Vec2>& values) {
     for (const Vec2& place : values) holds = holds && place.allFinite();
   }

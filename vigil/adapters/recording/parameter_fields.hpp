@@ -9,11 +9,11 @@ namespace vigil::recording {
 
 // A parameter that is not recorded would be another one when the flight is flown again, so this breaks when there is a
 // new one: show it below, add it to Mission.msg, then correct the size.
-static_assert(sizeof(void*) != 8 || sizeof(swarm::SwarmParameters) == 328);
+static_assert(sizeof(void*) != 8 || sizeof(swarm::SwarmParameters) == 536);
 
 /// Shows every value of the controller's parameters to `visit`, in the order of vigil_msgs/msg/Mission: writer and
 /// reader go by this one list. visit() takes numbers, flags and optional numbers, visit.count() and visit.index() whole
-/// ones, visit.choice() an enumeration of so many values.
+/// ones, visit.limit() a number that may be infinite, visit.choice() an enumeration of so many values.
 template <class Visit, class Parameters>
 void visit_parameters(Visit& visit, Parameters& p) {
   visit(p.field.length_x);
@@ -49,6 +49,31 @@ void visit_parameters(Visit& visit, Parameters& p) {
   visit(p.health.battery_reserve);
   visit(p.health.recovery_s);
   visit(p.health.landed_height_m);
+  visit(p.faults.watches);
+  visit(p.faults.loop.gain);
+  visit.limit(p.faults.loop.proportional_per_s);
+  visit(p.faults.loop.integral_per_s2);
+  visit(p.faults.loop.drag_per_s);
+  visit(p.faults.loop.actuator_lag_s);
+  visit.limit(p.faults.loop.acceleration_limit_m_s2);
+  visit.limit(p.faults.loop.jerk_limit_m_s3);
+  visit(p.faults.loop.response_delay_s);
+  visit(p.faults.acceleration_limit_m_s2);
+  visit(p.faults.bounds.period_s);
+  visit(p.faults.bounds.held_s);
+  visit(p.faults.bounds.lost_share);
+  visit(p.faults.bounds.reach_m_s);
+  visit(p.faults.bounds.jump_m);
+  visit(p.faults.bounds.confirm_s);
+  visit(p.faults.bounds.frozen_s);
+  visit(p.faults.bounds.never_repeats);
+  visit(p.faults.bounds.residual_leak_per_s);
+  visit(p.faults.bounds.residual_m);
+  visit(p.faults.bounds.disagreement_leak_per_s);
+  visit(p.faults.bounds.disagreement_m);
+  visit(p.faults.bounds.drift_m_s);
+  visit(p.faults.bounds.outside_m);
+  visit(p.faults.bounds.blind_s);
   visit.choice(p.first_intent, 9);
   visit.places(p.starts);
 }

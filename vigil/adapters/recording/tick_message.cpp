@@ -13,7 +13,7 @@ namespace {
 constexpr std::size_t kObserved = 8;
 constexpr std::size_t kDecided = 9;
 constexpr std::size_t kIndices = 3;
-constexpr std::size_t kCodes = 4;
+constexpr std::size_t kCodes = 5;
 constexpr std::size_t kTruth = 5;
 
 // Bits of the third code.
@@ -100,7 +100,7 @@ Codes codes_of(const swarm::DroneSnapshot& d) {
   const unsigned holding = static_cast<unsigned>(f.holding_count) | static_cast<unsigned>(f.holding[0].kind) << 2U |
                            static_cast<unsigned>(f.holding[1].kind) << 4U;
   return {static_cast<std::uint8_t>(d.activity), static_cast<std::uint8_t>(d.order.action), flags_of(d),
-          static_cast<std::uint8_t>(holding)};
+          static_cast<std::uint8_t>(holding), static_cast<std::uint8_t>(d.fault.kind)};
 }
 
 /// Whether every code is one of its enumeration.
@@ -110,8 +110,9 @@ bool set(const Codes& n, swarm::DroneSnapshot& d) {
   const unsigned first = n[3] >> 2U & kTwoBits;
   const unsigned second = n[3] >> 4U & kTwoBits;
   if (n[0] >= swarm::kActivityWords.size() || n[1] >= swarm::kActionWords.size() || count > 2 || first > 2 ||
-      second > 2)
+      second > 2 || n[4] >= swarm::kFaultWords.size())
     return false;
+  d.fault.kind = static_cast<swarm::Fault>(n[4]);
   d.activity = static_cast<swarm::Activity>(n[0]);
   d.order.action = static_cast<swarm::Action>(n[1]);
   d.is_obstacle = (flags & kIsObstacle) != 0;

@@ -30,15 +30,19 @@ void BodyConfusion::begin(std::span<const runtime::TruthSample> truth, std::size
     nearest = other;
     least = distance;
   }
-  if (nearest == drone || is_confused(drone) || is_confused(nearest)) return;
-  std::swap(body_of_[drone], body_of_[nearest]);
-  left_s_[drone] = left_s_[nearest] = parameters_.swap_s;
+  swap(drone, nearest, parameters_.swap_s);
+}
+
+void BodyConfusion::swap(std::size_t drone, std::size_t other, double for_s) noexcept {
+  if (other == drone || is_confused(drone) || is_confused(other)) return;
+  std::swap(body_of_[drone], body_of_[other]);
+  left_s_[drone] = left_s_[other] = for_s;
 }
 
 /// A Poisson process of beginnings.
 void BodyConfusion::advance(std::span<const runtime::TruthSample> truth, double dt_s) noexcept {
-  if (parameters_.swaps_per_h <= 0.0) return;
   end_those_over(dt_s);
+  if (parameters_.swaps_per_h <= 0.0) return;
   const bool begins = random_.uniform() < -std::expm1(-parameters_.swaps_per_h / 3600.0 * dt_s);
   const auto count = static_cast<double>(truth.size());
   const auto drawn = static_cast<std::size_t>(random_.uniform() * count);  // drawn always: the stream keeps its step

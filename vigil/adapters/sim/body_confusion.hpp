@@ -23,6 +23,9 @@ class BodyConfusion {
   /// One tick, before the bodies are measured; begins and ends confusions.
   void advance(std::span<const runtime::TruthSample> truth, double dt_s) noexcept;
 
+  /// Takes two for each other from now on for so long. Nothing where one of them is confused already, or both are one.
+  void swap(std::size_t drone, std::size_t other, double for_s) noexcept;
+
   /// The number of the body that is taken for this drone.
   [[nodiscard]] std::size_t body_of(std::size_t drone) const noexcept { return body_of_[drone]; }
 

@@ -121,4 +121,27 @@ void SimulatedFleet::cut_link(swarm::DroneId drone, double for_s) noexcept {
   drones_[drone.index()].telemetry.cut(for_s);
 }
 
+void SimulatedFleet::befall(swarm::DroneId drone, const runtime::Mishap& mishap) noexcept {
+  using runtime::MishapKind;
+  Drone& who = drones_[drone.index()];
+  switch (mishap.kind) {
+    case MishapKind::kFreezeTracking:
+      return who.tracker.freeze(mishap.for_s);
+    case MishapKind::kShiftTracking:
+      return who.tracker.shift(mishap.value, mishap.for_s);
+    case MishapKind::kSwapTracking:
+      return confusion_.swap(drone.index(), mishap.other.index(), mishap.for_s);
+    case MishapKind::kSkewVelocity:
+      return who.tracker.skew(mishap.value, mishap.for_s);
+    case MishapKind::kIgnoreOrders:
+      return who.vehicle.ignore_orders(mishap.for_s);
+    case MishapKind::kDrift:
+      return who.vehicle.drift(mishap.value, mishap.for_s);
+    case MishapKind::kLandByItself:
+      return who.vehicle.land_by_itself();
+    case MishapKind::kTakenByPilot:
+      return who.vehicle.take_over(mishap.value);
+  }
+}
+
 }  // namespace vigil::sim

@@ -44,6 +44,7 @@ class SimulatedFleet : public runtime::VirtualFleet {
   void give_back(swarm::DroneId drone) noexcept override;
   void hide(swarm::DroneId drone, double for_s) noexcept override;
   void cut_link(swarm::DroneId drone, double for_s) noexcept override;
+  void befall(swarm::DroneId drone, const runtime::Mishap& mishap) noexcept override;
 
  private:
   /// What a vehicle sends.

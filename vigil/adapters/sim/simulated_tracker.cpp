@@ -61,9 +61,18 @@ void SimulatedTracker::send(const runtime::TruthSample& truth) noexcept {
   if (parameters_.noise_m > 0.0) sighting.position += random_.normal(parameters_.noise_m);
   if (parameters_.velocity_noise_m_s > 0.0) sighting.velocity += random_.normal(parameters_.velocity_noise_m_s);
   const std::size_t ticks = draw_delay();
+  distort(sighting);
   if (hidden_s_ > 0.0) return;
   sighting.age_s = static_cast<double>(ticks) * dt_s_;  // when it arrives
   on_the_way_.send(sighting, ticks);
+}
+
+/// What is wrong with it beyond noise.
+void SimulatedTracker::distort(Sighting& sighting) noexcept {
+  sighting.position += shift_.now();
+  sighting.velocity += skew_.now();
+  if (frozen_s_ > 0.0 && measured_.age_s != swarm::DroneObservation::kNever) sighting = measured_;
+  measured_ = sighting;
 }
 
 void SimulatedTracker::receive() noexcept {
@@ -74,7 +83,8 @@ void SimulatedTracker::receive() noexcept {
 void SimulatedTracker::measure(const runtime::TruthSample& truth) noexcept {
   draw_dropouts();
   if (beat_.next()) send(truth);
-  hidden_s_ = std::max(0.0, hidden_s_ - dt_s_);
+  for (double* const left_s : {&hidden_s_, &frozen_s_, &shift_.left_s, &skew_.left_s})
+    *left_s = std::max(0.0, *left_s - dt_s_);
   wander();
   receive();
 }

@@ -43,6 +43,12 @@ class SimulatedTracker {
   void measure(const runtime::TruthSample& truth) noexcept;
   /// Nothing is seen for so long from now on.
   void hide(double for_s) noexcept;
+  /// For so long it tells, fresh each time, the last place and velocity that it measured.
+  void freeze(double for_s) noexcept { frozen_s_ = for_s; }
+  /// For so long it sees the body so far from where it is.
+  void shift(const Vec2& by_m, double for_s) noexcept { shift_ = {by_m, for_s}; }
+  /// For so long it reports velocities that are wrong by so much.
+  void skew(const Vec2& by_m_s, double for_s) noexcept { skew_ = {by_m_s, for_s}; }
   /// The newest that has arrived.
   [[nodiscard]] const Sighting& newest() const noexcept { return arrived_; }
 
@@ -53,6 +59,13 @@ class SimulatedTracker {
   void send(const runtime::TruthSample& truth) noexcept;
   void receive() noexcept;
 
+  struct Error {
+    Vec2 by = Vec2::Zero();
+    double left_s = 0.0;
+    [[nodiscard]] Vec2 now() const { return left_s > 0.0 ? by : Vec2(Vec2::Zero()); }
+  };
+  void distort(Sighting& sighting) noexcept;
+
   TrackerParameters parameters_;
   double dt_s_;
   dynamics::RandomStream random_;
@@ -62,6 +75,10 @@ class SimulatedTracker {
   InTransit<Sighting> on_the_way_;
   Vec2 bias_ = Vec2::Zero();
   double hidden_s_ = 0.0;
+  double frozen_s_ = 0.0;
+  Error shift_;
+  Error skew_;
+  Sighting measured_;  ///< the last one, as it was sent
   Sighting arrived_;
 };
 

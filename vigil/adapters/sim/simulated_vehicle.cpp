@@ -30,6 +30,7 @@ double SimulatedVehicle::reported_battery() const noexcept {
 
 void SimulatedVehicle::obey(const swarm::DroneOrder& order) noexcept {
   failsafe_ = dynamics::received(parameters_.failsafe, failsafe_);
+  if (deaf_s_ > 0.0 && order.action != Action::kStopMotors) return;
   const VehicleMode mode = truth_.mode;
   const bool follows_orders = mode == VehicleMode::kFlying || mode == VehicleMode::kTakingOff;
   switch (order.action) {
@@ -78,7 +79,8 @@ bool SimulatedVehicle::stays_by_itself() const noexcept {
 
 void SimulatedVehicle::move(double dt_s, const Vec2& push) noexcept {
   if (!stays_by_itself()) hold_.release();
-  const Vec2 command = stays_by_itself() ? hold_.command(truth_.position, truth_.velocity) : command_;
+  Vec2 command = stays_by_itself() ? hold_.command(truth_.position, truth_.velocity) : command_;
+  if (drifts_s_ > 0.0) command += drift_;
   motion_.advance(command, dt_s, push);
   truth_.position = motion_.position();
   truth_.velocity = motion_.velocity();
@@ -137,6 +139,8 @@ void SimulatedVehicle::advance(double dt_s, const Vec2& push) noexcept {
     return;
   }
   watch_orders(dt_s);
+  deaf_s_ = std::max(0.0, deaf_s_ - dt_s);
+  drifts_s_ = std::max(0.0, drifts_s_ - dt_s);
   climb_or_descend(dt_s);
   move(dt_s, push);
   arrive();
@@ -145,6 +149,12 @@ void SimulatedVehicle::advance(double dt_s, const Vec2& push) noexcept {
 void SimulatedVehicle::fail() noexcept {
   if (!is_airborne() || truth_.mode == VehicleMode::kFalling) return;
   truth_.mode = VehicleMode::kFailed;
+  command_.setZero();
+}
+
+void SimulatedVehicle::land_by_itself() noexcept {
+  if (truth_.mode != VehicleMode::kFlying) return;
+  truth_.mode = VehicleMode::kLanding;
   command_.setZero();
 }
 

@@ -52,6 +52,14 @@ class SimulatedVehicle {
   void fail() noexcept;
   void take_over(const Vec2& velocity) noexcept;
   void give_back() noexcept;
+  /// For so long it hears velocities, and flies on by the last one that it followed.
+  void ignore_orders(double for_s) noexcept { deaf_s_ = for_s; }
+  /// For so long its own estimate of its velocity is wrong by so much: it flies beside what it is told.
+  void drift(const Vec2& by_m_s, double for_s) noexcept {
+    drift_ = by_m_s;
+    drifts_s_ = for_s;
+  }
+  void land_by_itself() noexcept;
 
   [[nodiscard]] const runtime::TruthSample& truth() const noexcept { return truth_; }
   [[nodiscard]] bool is_airborne() const noexcept { return truth_.mode != swarm::VehicleMode::kGrounded; }
@@ -76,6 +84,9 @@ class SimulatedVehicle {
   std::optional<SimulatedBattery> battery_;
   PositionHold hold_;
   Vec2 command_ = Vec2::Zero();  ///< the velocity that it follows
+  double deaf_s_ = 0.0;
+  Vec2 drift_ = Vec2::Zero();
+  double drifts_s_ = 0.0;
 };
 
 }  // namespace vigil::sim

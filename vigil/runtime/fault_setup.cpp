@@ -1,0 +1,73 @@
+#include "vigil/runtime/fault_setup.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "vigil/runtime/mission_margins.hpp"
+#include "vigil/runtime/mission_setup.hpp"
+
+namespace vigil::runtime {
+namespace {
+
+/// The greatest residual of a recording that the model was not fitted to, over its step (docs/vehicle-models.md).
+double misfit_share(dynamics::VehicleKind kind) {
+  switch (kind) {
+    case dynamics::VehicleKind::kCrazyflie:
+      return 0.006;
+    case dynamics::VehicleKind::kArduCopter:
+      return 0.016;
+    case dynamics::VehicleKind::kPx4:
+      return 0.058;
+    case dynamics::VehicleKind::kIdeal:
+    case dynamics::VehicleKind::kFirstOrderLag:
+      break;
+  }
+  return 0.0;
+}
+
+double packet_period_s(const Mission& mission) {
+  const LinkSection& link = mission.simulation.link;
+  return link.rate_hz ? std::max(tick_s(mission), 1.0 / *link.rate_hz) : tick_s(mission);
+}
+
+/// Between two measurements while nothing is lost.
+double measurement_period_s(const Mission& mission) {
+  const TrackerSection& tracker = mission.simulation.tracker;
+  const double measured_s = tracker.rate_hz ? std::max(tick_s(mission), 1.0 / *tracker.rate_hz) : tick_s(mission);
+  return tracker.over_link ? std::max(measured_s, packet_period_s(mission)) : measured_s;
+}
+
+}  // namespace
+
+dynamics::FaultProblem fault_problem(const Mission& mission) {
+  const TrackerSection& tracker = mission.simulation.tracker;
+  const MarginProblem margins = margin_problem(mission);
+  dynamics::FaultProblem problem;
+  problem.loop = assumed_vehicle(mission).horizontal;
+  problem.u_max_m_s = mission.control.speed_limit_m_s;
+  problem.dt_s = tick_s(mission);
+  problem.period_s = measurement_period_s(mission);
+  problem.noise_m = tracker.noise_m;
+  problem.velocity_noise_m_s = tracker.velocity_noise_m_s;
+  problem.bias_m = tracker.bias_m;
+  problem.bias_time_s = tracker.bias_time_s;
+  problem.push_m_s2 = margins.push_m_s2;
+  problem.push_time_s = margins.push_time_s;
+  problem.held_s = longest_burst_s(mission) + margins.unsteady_delay_s;
+  problem.lost_share = mission.simulation.link.loss;
+  problem.misfit_share = misfit_share(assumed_vehicle(mission).kind);
+  return problem;
+}
+
+swarm::FaultParameters fault_parameters(const Mission& mission) {
+  const dynamics::FaultProblem problem = fault_problem(mission);
+  swarm::FaultParameters parameters;
+  parameters.watches = true;
+  parameters.loop = problem.loop;
+  if (mission.safety.vehicle == AssumedVehicle::kSimulated)
+    parameters.acceleration_limit_m_s2 = mission.simulation.vehicle.acceleration_limit_m_s2;
+  parameters.bounds = dynamics::fault_bounds(problem);
+  return parameters;
+}
+
+}  // namespace vigil::runtime

@@ -1,0 +1,14 @@
+#pragma once
+
+#include "vigil/runtime/mission.hpp"
+#include "vigil/swarm/fault.hpp"
+
+namespace vigil::runtime {
+
+/// What is known of a mission's vehicles, tracker, link and wind, as far as faults are told from it.
+[[nodiscard]] dynamics::FaultProblem fault_problem(const Mission& mission);
+
+/// What drones are held against.
+[[nodiscard]] swarm::FaultParameters fault_parameters(const Mission& mission);
+
+}  // namespace vigil::runtime
