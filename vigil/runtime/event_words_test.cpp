@@ -13,7 +13,7 @@ using swarm::Activity;
 using swarm::CommandKind;
 using swarm::VehicleMode;
 
-constexpr Activity kLast = Activity::kTravelling;
+constexpr Activity kLast = Activity::kOutside;
 
 std::vector<Activity> all_activities() {
   std::vector<Activity> all;
@@ -85,6 +85,36 @@ TEST(EventWordsTest, A_refusal_says_what_stands_in_the_way) {
   EXPECT_TRUE(says(refused(CommandKind::kEmergencyStop, flying), "cannot"));
   EXPECT_TRUE(says(refused(CommandKind::kLand, in_mode(VehicleMode::kUnknown)), "never heard of"));
   EXPECT_TRUE(says(refused(CommandKind::kLand, in_mode(VehicleMode::kFalling, Activity::kEmergencyStop)), "stopped"));
+}
+
+TEST(EventWordsTest, Every_fault_says_what_it_is_what_the_swarm_does_and_what_to_do) {
+  std::set<std::string> texts;
+  const std::vector<std::pair<swarm::Fault, Activity>> faults{{swarm::Fault::kFrozen, Activity::kTrackingLost},
+                                                              {swarm::Fault::kJumped, Activity::kTrackingLost},
+                                                              {swarm::Fault::kSwapped, Activity::kTrackingLost},
+                                                              {swarm::Fault::kDisagreeing, Activity::kTrackingLost},
+                                                              {swarm::Fault::kNotFollowing, Activity::kNotFollowing},
+                                                              {swarm::Fault::kOutside, Activity::kOutside},
+                                                              {swarm::Fault::kOwnMode, Activity::kLanding}};
+  for (const auto& [fault, activity] : faults) {
+    swarm::DroneSnapshot drone = in_mode(VehicleMode::kFlying, activity);
+    drone.fault = {.kind = fault, .measured = 1.25, .threshold = 0.5};
+    const EventWords words = words_for("cf2", activity, drone, 2, 3);
+    EXPECT_EQ(words.severity, Severity::kAlarm) << swarm::name_of(fault);
+    EXPECT_NE(words.text.find("cf2"), std::string::npos) << swarm::name_of(fault);
+    EXPECT_FALSE(words.effect.empty()) << swarm::name_of(fault);
+    EXPECT_FALSE(words.next.empty()) << swarm::name_of(fault);
+    EXPECT_EQ(words_for_fault("cf2", drone, 2, 3).text, words.text);
+    texts.insert(words.text);
+  }
+  EXPECT_EQ(texts.size(), faults.size());
+}
+
+TEST(EventWordsTest, A_fault_is_told_with_its_evidence_and_what_it_is_beyond) {
+  swarm::DroneSnapshot drone = in_mode(VehicleMode::kFlying, Activity::kNotFollowing);
+  drone.fault = {.kind = swarm::Fault::kNotFollowing, .measured = 1.25, .threshold = 0.5};
+  EXPECT_EQ(words_for("cf2", Activity::kNotFollowing, drone, 2, 3).text,
+            "cf2 does not fly what it is told: 1.25 m from where its orders lead, at most 0.50 m can be");
 }
 
 }  // namespace

@@ -269,12 +269,19 @@ class Trial {
     if (is_alarm(drone)) {
       if (!result_.is_noticed) noticed_s_ = now_s;
       result_.is_noticed = true;
-      if (!result_.has_shown || now_s - shown_s_ <= stated_s_) name_ = {drone.activity, drone.fault.kind};
+      if (!result_.has_shown || now_s - shown_s_ <= stated_s_) take_name({drone.activity, drone.fault.kind});
     }
     if (!result_.is_noticed || !result_.has_shown) return;
     result_.delay_s = noticed_s_ - shown_s_;
     result_.is_in_time = result_.delay_s <= stated_s_;
     result_.is_named_rightly = is_right(misfortune_, name_);
+  }
+
+  /// That a drone which was named rightly has by now left the field is right, too.
+  void take_name(const Name& name) {
+    const bool is_outside = beyond(limits_.field, fleet_->truth()[drone_].position) > 0.0;
+    if (is_right(misfortune_, name_) && name.fault == Fault::kOutside && is_outside) return;
+    name_ = name;
   }
 
   void judge_truth() {

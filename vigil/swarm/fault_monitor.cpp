@@ -162,8 +162,8 @@ std::optional<DroneId> FaultMonitor::whose(std::size_t index, const Vec2& place)
   for (std::size_t i = 0; i < watched_.size(); ++i) {
     const Watched& other = watched_[i];
     if (i == index || !other.has_seen) continue;
-    const double unseen_s = now_s_ - setup_.observation_delay_s - other.measured_s;
-    if ((place - other.place).norm() <= reach_m(unseen_s)) return DroneId(i);
+    const double apart_s = std::abs(watched_[index].stream.newest_s - other.measured_s);
+    if ((place - other.place).norm() <= reach_m(apart_s)) return DroneId(i);
   }
   return std::nullopt;
 }
@@ -209,7 +209,7 @@ void FaultMonitor::compare(Watched& drone, const DroneObservation& observed, dou
 
 void FaultMonitor::believe(Watched& drone, const DroneObservation& observed, double stamp_s, bool is_judged,
                            bool is_elsewhere) const noexcept {
-  if (!is_judged || is_elsewhere) rest_model(drone, is_judged ? velocity_of(observed) : Vec2::Zero());
+  if (!is_judged || is_elsewhere) rest_model(drone, velocity_of(observed));
   const Vec2 model_place = model_place_at(drone, stamp_s);
   if (drone.has_seen && is_judged && !is_elsewhere) compare(drone, observed, stamp_s, model_place);
   drone.model_place = model_place;

@@ -48,7 +48,7 @@ export const kActivities: readonly ActivityWords[] = [
     'tracking_lost',
     'Not tracked',
     'alarm',
-    'Its position is too old; the others keep clear of its last place.',
+    'Its position is too old or cannot be true; the others keep clear of it.',
   ),
   activity('link_lost', 'Link lost', 'alarm', 'It has not been heard for too long.'),
   activity('battery_low', 'Battery low', 'alarm', 'Below its reserve: it lands.'),
@@ -66,6 +66,13 @@ export const kActivities: readonly ActivityWords[] = [
     'warning',
     'It takes off by itself once it is well and the air above it is clear. Land or Hold takes that back.',
   ),
+  activity(
+    'not_following',
+    'Disobeys',
+    'alarm',
+    'It does not fly what it is told; the others give way. Land it, or let a pilot take it.',
+  ),
+  activity('outside', 'Outside', 'alarm', 'It left the field and is told to come back. Watch it.'),
 ];
 
 const kUnknownActivity = activity('unknown', 'Unknown', 'warning', 'This console does not know that state.');
