@@ -103,7 +103,7 @@ void FaultMonitor::hold_orders(Watched& drone, const Vec2& u) const noexcept {
   for (HeldOrder& held : drone.held) {
     held.for_s += setup_.dt_s;
     held.astray += setup_.dt_s * (u - held.u);
-    astray_m = std::max(astray_m, held.astray.norm());
+    if (held.for_s <= bounds.held_s + spacing_s + 1.5 * setup_.dt_s) astray_m = std::max(astray_m, held.astray.norm());
   }
   const double fade = std::exp(-bounds.residual_leak_per_s * setup_.dt_s);
   drone.held_m = std::max(fade * drone.held_m, astray_m);
@@ -203,6 +203,7 @@ void FaultMonitor::compare(Watched& drone, const DroneObservation& observed, dou
   drone.residual =
       std::exp(-bounds.residual_leak_per_s * span_s) * drone.residual + moved - (model_place - drone.model_place);
   if (span_s > kSteadyPeriods * bounds.period_s + setup_.dt_s) return;
+  if (drone.velocity.isZero(0.0) && velocity_of(observed).isZero(0.0)) return;  // nobody reports velocities
   const Vec2 told = 0.5 * span_s * (drone.velocity + velocity_of(observed));
   drone.disagreement = std::exp(-bounds.disagreement_leak_per_s * span_s) * drone.disagreement + told - moved;
 }
@@ -225,7 +226,8 @@ void FaultMonitor::take_new(std::size_t index, const DroneObservation& observed,
                             bool is_judged) noexcept {
   Watched& drone = watched_[index];
   const bool has_leapt = take_stream(drone, observed, stamp_s);
-  if (drone.stream.is_frozen && is_judged) return;  // nothing is learnt of where it is
+  const bool is_repeated = setup_.parameters.bounds.never_repeats && drone.stream.repeats > 0;
+  if (is_judged && (drone.stream.is_frozen || is_repeated)) return;  // nothing is learnt of where it is
   const bool is_free = !drone.has_seen || !is_judged;
   if (!is_free && !is_credible(drone, observed.position, stamp_s, expected, has_leapt))
     return doubt(drone, index, observed.position, has_leapt);

@@ -187,9 +187,9 @@ TEST(FaultMonitor, A_drone_that_drifts_beside_its_orders_does_not_follow_them) {
   const dynamics::FaultBounds bounds = setup().parameters.bounds;
   const double leak = bounds.residual_leak_per_s;
   const double needed_s = -std::log1p(-leak * bounds.residual_m / 0.3) / leak;
-  world.fly(0.3 * needed_s);
+  world.fly(kStep);
   EXPECT_EQ(world.fault(), Fault::kNone);
-  world.fly(1.0 * needed_s);
+  world.fly(2.0 * needed_s);
   EXPECT_EQ(world.fault(), Fault::kNotFollowing);
   world.astray.setZero();
   world.fly(20.0);
