@@ -199,7 +199,10 @@ std::string refusal_words(std::string_view id, CommandKind wish, const swarm::Dr
       if (is_down) return fmt::format("{} is on the ground; only a drone in the air flies to a place", id);
       if (drone.activity == Activity::kMarkedFailed)
         return fmt::format("{} is marked as failed; resume it before it flies to a place", id);
-      return fmt::format("{} cannot fly to a place now", id);
+      if (drone.activity == Activity::kOverridden)
+        return fmt::format("a pilot has {}; it must be given back first", id);
+      return fmt::format("{} may not fly to that place; choose one inside the field and outside every no-fly polygon",
+                         id);
     case CommandKind::kResume:
       return fmt::format("{} is neither held, nor at a place, nor marked as failed", id);
     case CommandKind::kGiveBack:

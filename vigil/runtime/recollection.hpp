@@ -17,6 +17,7 @@ class Recollection {
 
  private:
   double dt_s_;
+  double reserve_;
   bool is_thinned_;
   std::vector<swarm::DroneMemory> drones_;
 };

@@ -1,9 +1,13 @@
 #include "vigil/swarm/activity.hpp"
 
 #include <cmath>
+#include <limits>
 
 namespace vigil::swarm {
 namespace {
+
+/// An older report of the battery says nothing new.
+constexpr double kOldestReportS = 2.0;
 
 bool usable(const DroneObservation& observed) {
   return observed.position.allFinite() && std::isfinite(observed.height_m) && std::isfinite(observed.age_s) &&
@@ -84,6 +88,9 @@ void remember(DroneMemory& memory, const DroneObservation& observed, double dt_s
   last.link_age_s = sane_age(observed.link_age_s);
   if (observed.mode != VehicleMode::kUnknown) last.mode = observed.mode;
   last.battery = observed.battery;
+  const bool is_heard = last.link_age_s <= kOldestReportS;
+  const bool flies = last.mode != VehicleMode::kUnknown && !on_ground(last.mode);
+  memory.energy.update(is_heard ? last.battery : std::numeric_limits<double>::quiet_NaN(), flies, dt_s);
 }
 
 bool apply_wish(DroneMemory& memory, CommandKind wish, const Vec2& place) noexcept {

@@ -4,6 +4,7 @@
 #include <optional>
 
 #include "vigil/swarm/command.hpp"
+#include "vigil/swarm/energy.hpp"
 #include "vigil/swarm/fault.hpp"
 #include "vigil/swarm/observation.hpp"
 
@@ -68,6 +69,7 @@ struct DroneMemory {
   bool has_new_fault = false;  ///< in this tick
   bool is_recovering = false;  ///< something was wrong with it: recovery_s applies
   Activity activity = Activity::kNeverSeen;
+  EnergyEstimate energy;
 };
 
 /// Takes this tick's observation into `memory`: keeps the last usable one, with ages that count on.

@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <limits>
+#include <memory>
 
 #include <gtest/gtest.h>
 
@@ -105,6 +106,59 @@ TEST(GoTo, Travellers_keep_their_distance_from_those_that_cover) {
       for (std::size_t j = 0; j < i; ++j) least = std::min(least, world.distance(i, j));
   }
   EXPECT_GE(least, 0.2 - 1e-9);
+}
+
+std::shared_ptr<const CoverageTarget> no_fly(const std::vector<Vec2>& outline) {
+  auto target = std::make_shared<CoverageTarget>();
+  target->no_fly = field::edges({outline});
+  return target;
+}
+
+Command ground(const std::vector<Vec2>& outline) {
+  return {.kind = CommandKind::kSetTarget, .drone = {}, .target = no_fly(outline)};
+}
+
+/// Open to the left, where the drones are.
+const std::vector<Vec2> kTrap{{1.0, 1.0}, {2.2, 1.0}, {2.2, 2.2}, {1.0, 2.2},
+                              {1.0, 2.1}, {2.1, 2.1}, {2.1, 1.1}, {1.0, 1.1}};
+
+TEST(GoTo, A_drone_finds_its_way_round_a_no_fly_polygon_that_is_a_trap) {
+  for (const double lag_s : {0.0, 0.3}) {
+    SwarmParameters parameters = laboratory(1);
+    parameters.barrier.no_fly_buffer_m = 0.1;
+    parameters.barrier.lag_s = lag_s;
+    IdealWorld world(parameters, {{1.6, 1.6}});
+    world.step({ground(kTrap), go_to(0, {2.7, 1.6})});
+    double nearest = HUGE_VAL;
+    for (int k = 0; k < 1500; ++k) {
+      world.step();
+      for (const field::Segment& edge : field::edges({kTrap})) {
+        const Vec2& p = world.observations[0].position;
+        nearest = std::min(nearest, (field::nearest_point(edge, p) - p).norm());
+      }
+    }
+    EXPECT_LT((world.observations[0].position - Vec2(2.7, 1.6)).norm(), 0.02) << lag_s;
+    EXPECT_GE(nearest, 0.1 - 1e-6) << lag_s;
+  }
+}
+
+TEST(GoTo, Round_corners_a_drone_does_not_slow_down) {
+  SwarmParameters parameters = laboratory(1);
+  parameters.barrier.no_fly_buffer_m = 0.1;
+  IdealWorld world(parameters, {{0.3, 1.2}});
+  world.step({ground({{1.2, 0.5}, {1.8, 0.5}, {1.8, 2.0}, {1.2, 2.0}}), go_to(0, {2.7, 1.2})});
+  int steps = 0;
+  while ((world.observations[0].position - Vec2(2.7, 1.2)).norm() > 0.3 && ++steps < 3000) world.step();
+  // Up to the lower edge's height and back, and 0.3 m less at the end: 3.02 m at 0.3 m/s by hand.
+  EXPECT_LT(steps * kDt, 1.15 * 3.02 / 0.3);
+}
+
+TEST(GoTo, A_place_inside_of_a_no_fly_polygon_is_refused) {
+  World world;
+  world.step({ground({{1.2, 1.2}, {1.8, 1.2}, {1.8, 1.8}, {1.2, 1.8}})});
+  world.step({go_to(0, {1.5, 1.5})});
+  EXPECT_FALSE(world.accepted(0));
+  EXPECT_EQ(world.activity(0), Activity::kActive);
 }
 
 }  // namespace

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "vigil/core/safety/filter.hpp"
@@ -23,7 +24,8 @@ struct DroneSnapshot {
   double height_m = 0.0;
   double age_s = 0.0;  ///< of the position
   double link_age_s = 0.0;
-  double battery = 0.0;  ///< share of full; NaN: not reported
+  double battery = 0.0;               ///< share of full; NaN: not reported
+  std::optional<TimeLeft> time_left;  ///< in the air, until the battery is down at its reserve; none: not reported
   VehicleMode mode = VehicleMode::kUnknown;
   Activity activity = Activity::kNeverSeen;
   FaultReport fault;  ///< what the monitor found, with its evidence

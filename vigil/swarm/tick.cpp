@@ -8,6 +8,7 @@
 
 #include "vigil/core/ergodic/gradient_controller.hpp"
 #include "vigil/core/safety/barrier.hpp"
+#include "vigil/swarm/guidance_parameters.hpp"
 
 namespace vigil::swarm {
 namespace {
@@ -32,13 +33,6 @@ bool looks_ahead(const SwarmParameters& parameters) {
   return parameters.controller == ergodic::ControllerKind::kLookAhead;
 }
 
-guidance::SeekerParameters seeker_parameters(const SwarmParameters& parameters) {
-  return {.u_max_m_s = parameters.barrier.u_max_m_s,
-          .spacing_m = safety::barrier_radius(parameters.barrier),
-          .lag_s = parameters.barrier.lag_s,
-          .dt_s = parameters.dt_s};
-}
-
 /// A drone that was seen longer ago is not steered any more.
 double longest_prediction_s(const SwarmParameters& parameters) {
   return std::min(parameters.health.tracking_timeout_s + parameters.command_delay_s, kLongestPredictionS);
@@ -58,6 +52,8 @@ bool fits(const CoverageTarget& target, const ergodic::Basis& basis) {
       target.phi_k.rows() == basis.indices_per_axis() && target.phi_k.cols() == basis.indices_per_axis();
   return target.no_fly.size() <= kMaxNoFlyEdges && (!target.has_targets || (has_shape && target.phi_k.allFinite()));
 }
+
+bool are_equal(const field::Segment& one, const field::Segment& other) { return one.a == other.a && one.b == other.b; }
 
 /// Whether the filter computes the drone's velocity: it flies by our commands, and where it is, is known.
 bool is_steered(Activity activity) {
@@ -106,6 +102,7 @@ SwarmState::SwarmState(const SwarmParameters& parameters)
       statistics_(basis_, parameters.accounting, parameters.memory_s),
       look_ahead_(basis_, look_ahead_parameters(parameters), looks_ahead(parameters) ? parameters.drones : 0),
       goal_seeker_(seeker_parameters(parameters), parameters.drones),
+      ways_(way_parameters(parameters), parameters.drones),
       filter_(parameters.barrier, parameters.field, parameters.drones),
       air_(parameters.field, safety::barrier_radius(parameters.barrier), parameters.drones),
       flown_(parameters.drones, parameters.dt_s, longest_prediction_s(parameters)),
@@ -180,14 +177,16 @@ void SwarmState::set_target(const CoverageTarget& target) noexcept {
   else
     target_.phi_k.setZero();
   target_.has_targets = target.has_targets;
+  const bool is_same_ground = std::ranges::equal(target_.no_fly, target.no_fly, are_equal);
   target_.no_fly.assign(target.no_fly.begin(), target.no_fly.end());
+  if (!is_same_ground) ways_.ground_changed(target_.no_fly);
   fade_delta_ = parameters_.fade * ergodic::gradient_scale(basis_, target_.phi_k);
   look_ahead_.targets_changed();
 }
 
 void SwarmState::take_wish(const Command& command, Snapshot& out) noexcept {
   const auto wish = [&](std::size_t index) {
-    const bool is_possible = command.kind != CommandKind::kGoTo || is_inside(command.place);
+    const bool is_possible = command.kind != CommandKind::kGoTo || may_be_flown_to(command.place);
     const bool accepted = is_possible && apply_wish(drones_[index], command.kind, command.place);
     Event event{.kind = accepted ? EventKind::kWishAccepted : EventKind::kWishRefused, .drone = DroneId(index)};
     event.wish = command.kind;
@@ -269,8 +268,8 @@ void SwarmState::judge_drones(std::span<const DroneObservation> observations, bo
   }
 }
 
-bool SwarmState::is_inside(const Vec2& place) const noexcept {
-  return place.allFinite() && parameters_.field.contains(place);
+bool SwarmState::may_be_flown_to(const Vec2& place) const noexcept {
+  return place.allFinite() && parameters_.field.contains(place) && !safety::is_enclosed(target_.no_fly, place);
 }
 
 /// As close to a place as the walls allow.
@@ -384,17 +383,28 @@ void SwarmState::cover(Snapshot& out, parallel::Workers* workers) noexcept {
   for (std::size_t i = 0; i < active_.size(); ++i) u_nom_[active_[i]] = active_u_[i];
 }
 
+/// Round no-fly polygons, by the point that the filter keeps clear of them.
+guidance::Traveller SwarmState::traveller(std::size_t index) noexcept {
+  const Motion& motion = motions_[index];
+  const Vec2 goal = within_walls(drones_[index].place);
+  const Vec2 next = ways_.next(index, safety::barrier_point(parameters_.barrier, body_of(index)), goal);
+  return {.drone = index,
+          .position = motion.position,
+          .velocity = motion.velocity,
+          .goal = next,
+          .flown = u_[index],
+          .passes = next != goal};
+}
+
 /// Whoever has a place to go to, whether or not anything is to be covered.
 void SwarmState::seek_goals() noexcept {
   travellers_.clear();
   if (!is_any(&PartNote::has_traveller)) return;
+  const auto travels = [](const DroneMemory& drone) { return drone.activity == Activity::kTravelling; };
+  ways_.begin_tick(static_cast<std::size_t>(std::count_if(drones_.begin(), drones_.end(), travels)));
   for (std::size_t index = 0; index < drones_.size(); ++index) {
     if (drones_[index].activity != Activity::kTravelling) continue;
-    travellers_.push_back({.drone = index,
-                           .position = motions_[index].position,
-                           .velocity = motions_[index].velocity,
-                           .goal = within_walls(drones_[index].place),
-                           .flown = u_[index]});
+    travellers_.push_back(traveller(index));
   }
   travel_u_.resize(travellers_.size());  // within its capacity
   goal_seeker_.steer(travellers_, travel_u_);
@@ -466,6 +476,7 @@ void SwarmState::write_order(std::size_t index, DroneSnapshot& to) noexcept {
   to.age_s = drone.last_good.age_s;
   to.link_age_s = drone.last_good.link_age_s;
   to.battery = drone.last_good.battery;
+  to.time_left = drone.energy.time_to(parameters_.health.battery_reserve);
   to.mode = drone.last_good.mode;
   to.activity = drone.activity;
   to.fault = monitor_.watches() ? monitor_.report(index) : FaultReport{};

@@ -8,6 +8,7 @@
 #include "vigil/core/ergodic/kernel.hpp"
 #include "vigil/core/ergodic/look_ahead.hpp"
 #include "vigil/core/guidance/goal_seeker.hpp"
+#include "vigil/core/guidance/way_finder.hpp"
 #include "vigil/core/parallel/workers.hpp"
 #include "vigil/core/safety/filter.hpp"
 #include "vigil/swarm/command.hpp"
@@ -100,7 +101,8 @@ class SwarmState {
   [[nodiscard]] bool has_clear_air(std::size_t index) const noexcept;
   [[nodiscard]] safety::Body body_of(std::size_t index) const noexcept;
   [[nodiscard]] double assumed_age(const DroneMemory& drone) const noexcept;
-  [[nodiscard]] bool is_inside(const Vec2& place) const noexcept;
+  [[nodiscard]] bool may_be_flown_to(const Vec2& place) const noexcept;
+  [[nodiscard]] guidance::Traveller traveller(std::size_t index) noexcept;
   [[nodiscard]] Vec2 within_walls(const Vec2& place) const noexcept;
 
   SwarmParameters parameters_;
@@ -109,6 +111,7 @@ class SwarmState {
   ergodic::CoverageStatistics statistics_;
   ergodic::LookAhead look_ahead_;
   guidance::GoalSeeker goal_seeker_;
+  guidance::WayFinder ways_;
   safety::Filter filter_;
   safety::NeighbourGrid air_;  ///< where drones are in the air, of a tick in which somebody wants to take off
   FlownOrders flown_;

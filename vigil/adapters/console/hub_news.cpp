@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <utility>
 
 #include <fmt/format.h>
@@ -466,6 +467,7 @@ Json Hub::state() const {
     const swarm::DroneSnapshot& drone = snapshot.drones[i];
     const Vec2 place = world.point_to_world(drone.position);
     const Vec2 velocity = world.vector_to_world(drone.velocity);
+    const std::optional<swarm::TimeLeft>& time_left = drone.time_left;
     drones.push_back({{"id", drone_id(i)},
                       {"mode", swarm::name_of(drone.mode)},
                       {"activity", swarm::name_of(drone.activity)},
@@ -474,7 +476,9 @@ Json Hub::state() const {
                       {"velocity_m_s", {velocity.x(), velocity.y()}},
                       {"age_s", drone.age_s},
                       {"link_age_s", drone.link_age_s},
-                      {"battery", drone.battery}});
+                      {"battery", drone.battery},
+                      {"battery_time_left_s", time_left ? Json(time_left->s) : Json(nullptr)},
+                      {"battery_time_left_least_s", time_left ? Json(time_left->least_s) : Json(nullptr)}});
   }
   Json state{{"run", setup_.run},
              {"epoch", flight_->epoch()},

@@ -127,6 +127,7 @@ TEST_F(RestTest, The_state_is_the_swarms_in_the_world_frame) {
   EXPECT_EQ(drone.at("id"), "a");
   EXPECT_NEAR(drone.at("position_m").at(0), -0.5, 0.1);  // where it started, but for 0.1 s of flight
   EXPECT_NEAR(drone.at("position_m").at(1), 10.5, 0.1);
+  EXPECT_TRUE(drone.at("battery_time_left_s").is_null());  // without a battery that is reported
 }
 
 TEST_F(RestTest, The_mission_is_given_as_json_or_as_a_file_that_can_be_flown) {

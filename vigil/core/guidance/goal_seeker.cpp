@@ -48,7 +48,7 @@ GoalSeeker::GoalSeeker(const SeekerParameters& parameters, std::size_t drones)
       journeys_(drones) {}
 
 bool GoalSeeker::has_arrived(const Traveller& traveller) const noexcept {
-  return (traveller.goal - traveller.position).norm() < arrival_distance_m();
+  return !traveller.passes && (traveller.goal - traveller.position).norm() < arrival_distance_m();
 }
 
 void GoalSeeker::keep_track(const Traveller& traveller) noexcept {
@@ -110,6 +110,8 @@ Vec2 GoalSeeker::wish_of(const Traveller& traveller) noexcept {
   const Vec2 way = traveller.goal - traveller.position - parameters_.lag_s * traveller.velocity;
   if (journey.turning_s > 0.0)
     journey.wish = parameters_.u_max_m_s * turned_right(direction(way), journey.turn_rad);
+  else if (traveller.passes)
+    journey.wish = parameters_.u_max_m_s * direction(way);
   else
     journey.wish = std::min(approach_per_s_, parameters_.u_max_m_s / std::max(way.norm(), 1e-12)) * way;
   return journey.wish;

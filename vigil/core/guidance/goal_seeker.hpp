@@ -23,6 +23,7 @@ struct Traveller {
   Vec2 velocity = Vec2::Zero();
   Vec2 goal = Vec2::Zero();
   Vec2 flown = Vec2::Zero();  ///< the velocity that it was last allowed to fly
+  bool passes = false;        ///< its goal is a corner on its way: it neither slows down for it nor arrives there
 };
 
 /// Flies drones to places through other drones, without ever touching what keeps them apart: it only wishes, and the

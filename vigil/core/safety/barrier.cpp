@@ -233,6 +233,15 @@ bool encloses(std::span<const field::Segment> outline, const Vec2& z) {
   return inside;
 }
 
+bool is_enclosed(std::span<const field::Segment> edges, const Vec2& z) {
+  while (!edges.empty()) {
+    const std::size_t count = outline_length(edges);
+    if (encloses(edges.first(count), z)) return true;
+    edges = edges.subspan(count);
+  }
+  return false;
+}
+
 std::optional<HalfPlane> edge_row(const BarrierParameters& parameters, const field::Segment& edge, const Vec2& z,
                                   double reserve_m, Priority priority) {
   const Vec2 away = z - field::nearest_point(edge, z);

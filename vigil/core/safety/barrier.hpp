@@ -81,6 +81,9 @@ struct PairBarrier {
 /// True where the outline of a polygon encloses z. False for fewer than three edges.
 [[nodiscard]] bool encloses(std::span<const field::Segment> outline, const Vec2& z);
 
+/// True where one of the outlines, which follow each other in `edges`, encloses z.
+[[nodiscard]] bool is_enclosed(std::span<const field::Segment> edges, const Vec2& z);
+
 /// The row that keeps z away from one edge, from outside: like a wall at the edge's nearest point, with the radius
 /// no_fly_radius(reserve_m). None beyond wall_range_m.
 [[nodiscard]] std::optional<HalfPlane> edge_row(const BarrierParameters& parameters, const field::Segment& edge,
