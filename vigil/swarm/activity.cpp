@@ -1,5 +1,6 @@
 #include "vigil/swarm/activity.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -71,6 +72,12 @@ void settle_intent(DroneMemory& memory) {
 /// By its own word; where it says nothing, whatever was seen is taken to fly.
 bool in_the_air(const DroneMemory& memory) {
   return memory.last_good.mode == VehicleMode::kUnknown ? is_seen(memory) : !on_ground(memory.last_good.mode);
+}
+
+/// Whether it may move sideways although nobody here steers it.
+bool may_wander(Activity activity) {
+  return activity == Activity::kOverridden || activity == Activity::kMarkedFailed ||
+         activity == Activity::kVehicleFailed || activity == Activity::kLinkLost || activity == Activity::kNotFollowing;
 }
 
 }  // namespace
@@ -185,5 +192,24 @@ bool is_airborne(const DroneMemory& memory, const HealthParameters& health) noex
   if (!is_seen(memory)) return memory.is_expected && in_the_air(memory);
   return in_the_air(memory) && memory.last_good.height_m > health.landed_height_m;
 }
+
+bool is_steered(Activity activity) noexcept {
+  return activity == Activity::kActive || activity == Activity::kTravelling || activity == Activity::kHeld ||
+         activity == Activity::kRecovering || activity == Activity::kOutside;
+}
+
+bool stands_still(Activity activity) noexcept {
+  return activity == Activity::kTakingOff || activity == Activity::kLanding || activity == Activity::kBatteryLow ||
+         activity == Activity::kTrackingLost;
+}
+
+double wandering_speed(const DroneMemory& memory, double u_max_m_s) noexcept {
+  constexpr double kChange = 0.1;  // of u_max
+  if (!may_wander(memory.activity)) return 0.0;
+  if (memory.activity == Activity::kOverridden) return u_max_m_s;
+  return std::min(u_max_m_s, memory.last_good.velocity.norm() + kChange * u_max_m_s);
+}
+
+bool wants_up(const DroneMemory& memory) noexcept { return memory.intent == Intent::kTakeOff; }
 
 }  // namespace vigil::swarm

@@ -93,4 +93,19 @@ void judge(DroneMemory& memory, const HealthParameters& health, double dt_s) noe
 /// that says that it flies but was not seen yet is in the air where it is expected.
 [[nodiscard]] bool is_airborne(const DroneMemory& memory, const HealthParameters& health) noexcept;
 
+/// Whether the safety filter computes the drone's velocity: it flies by our commands, and where it is, is known.
+[[nodiscard]] bool is_steered(Activity activity) noexcept;
+
+/// Whether it goes up or down by itself over one place, or hovers because it is not tracked: commanded to stand still,
+/// which is what a drone that gives way to nobody may do, since u = 0 satisfies every barrier that is not broken yet.
+[[nodiscard]] bool stands_still(Activity activity) noexcept;
+
+/// How fast it may come closer by itself, in m/s; 0 for who flies by our commands. A pilot may do anything; what has
+/// failed or is not heard drifts, and is seen to: it is given a little more than it has. To assume the most of it would
+/// make everybody flee from a drone that hovers, into a wall if need be. Precondition: u_max_m_s >= 0.
+[[nodiscard]] double wandering_speed(const DroneMemory& memory, double u_max_m_s) noexcept;
+
+/// Whether it is about to leave the ground.
+[[nodiscard]] bool wants_up(const DroneMemory& memory) noexcept;
+
 }  // namespace vigil::swarm

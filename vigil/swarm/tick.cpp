@@ -55,43 +55,11 @@ bool fits(const CoverageTarget& target, const ergodic::Basis& basis) {
 
 bool are_equal(const field::Segment& one, const field::Segment& other) { return one.a == other.a && one.b == other.b; }
 
-/// Whether the filter computes the drone's velocity: it flies by our commands, and where it is, is known.
-bool is_steered(Activity activity) {
-  return activity == Activity::kActive || activity == Activity::kTravelling || activity == Activity::kHeld ||
-         activity == Activity::kRecovering || activity == Activity::kOutside;
-}
-
-/// Whether it goes up or down by itself over one place, or hovers because it is not tracked: commanded to stand still,
-/// which is what a drone that gives way to nobody may do, since u = 0 satisfies every barrier that is not broken yet.
-bool stands_still(Activity activity) {
-  return activity == Activity::kTakingOff || activity == Activity::kLanding || activity == Activity::kBatteryLow ||
-         activity == Activity::kTrackingLost;
-}
-
-/// Whether it may move sideways although nobody here steers it.
-bool may_wander(Activity activity) {
-  return activity == Activity::kOverridden || activity == Activity::kMarkedFailed ||
-         activity == Activity::kVehicleFailed || activity == Activity::kLinkLost || activity == Activity::kNotFollowing;
-}
-
-/// How fast it may come closer by itself. A pilot may do anything; what has failed or is not heard drifts, and is seen
-/// to: it is given a little more than it has. To assume the most of it would make everybody flee from a drone that
-/// hovers, into a wall if need be.
-double wandering_speed(const DroneMemory& drone, double u_max) {
-  constexpr double kChange = 0.1;  // of u_max
-  if (!may_wander(drone.activity)) return 0.0;
-  if (drone.activity == Activity::kOverridden) return u_max;
-  return std::min(u_max, drone.last_good.velocity.norm() + kChange * u_max);
-}
-
 /// Drones that one thread looks after before it asks for more.
 constexpr std::size_t kPart = 512;
 
 /// Small swarms never meet a second thread.
 std::size_t threads_worth(std::size_t drones) { return drones > kPart ? parallel::kMostThreads : 1; }
-
-/// Whether it is about to leave the ground.
-bool wants_up(const DroneMemory& drone) { return drone.intent == Intent::kTakeOff; }
 
 }  // namespace
 
