@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include "vigil/adapters/console/hub.hpp"
+#include "vigil/runtime/mission_description.hpp"
 #include "vigil/swarm/names.hpp"
 
 namespace vigil::console {
@@ -13,6 +14,7 @@ namespace {
 using runtime::LiveEvent;
 using runtime::Severity;
 
+constexpr std::size_t kKeptEvents = 200;
 /// Refusals of single drones that an answer lists.
 constexpr std::size_t kMostRefusedDrones = 32;
 

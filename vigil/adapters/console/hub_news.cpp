@@ -21,7 +21,7 @@ using runtime::Severity;
 constexpr auto kSnapshotEvery = 50ms;
 constexpr auto kStatusEvery = 500ms;
 constexpr auto kHelloWithin = 10s;
-constexpr std::size_t kKeptEvents = 200;
+
 SharedBytes shared(std::string bytes) { return std::make_shared<const std::string>(std::move(bytes)); }
 
 double milliseconds(std::chrono::nanoseconds time) { return std::chrono::duration<double, std::milli>(time).count(); }
