@@ -16,10 +16,6 @@ using pair_formula::kCoincident;
 /// outranks walls, must not use that up.
 constexpr double kBareGain = 5.0;
 
-double lag_of(const BarrierParameters& parameters) {
-  return parameters.kind == BarrierKind::kLagAware ? parameters.lag_s : 0.0;
-}
-
 double pair_margin_of(const BarrierParameters& parameters) {
   return parameters.kind == BarrierKind::kLagAware ? parameters.pair_margin_m : 0.0;
 }
@@ -99,7 +95,7 @@ double drift_of(const BarrierParameters& parameters, const Body& own, const Body
 
 PairBarrier barrier_of_distance(const BarrierParameters& parameters, const Body& other, double distance, double drift,
                                 double gain) {
-  const double lag = lag_of(parameters);
+  const double lag = barrier_lag(parameters);
   const double u_max = parameters.u_max_m_s;
   const double speed = closing_speed_of(other);
   PairBarrier barrier;
@@ -125,6 +121,10 @@ PairBarrier barrier_of_two_drones(const BarrierParameters& parameters) {
 
 }  // namespace
 
+double barrier_lag(const BarrierParameters& parameters) {
+  return parameters.kind == BarrierKind::kLagAware ? parameters.lag_s : 0.0;
+}
+
 Vec2 parting_direction(int own, int other) { return own < other ? Vec2(1.0, 0.0) : Vec2(-1.0, 0.0); }
 
 pair_formula::Rule pair_formula::rule_of(const BarrierParameters& parameters, const PairBarrier& barrier) {
@@ -143,14 +143,14 @@ double derived_sensing_range(const BarrierParameters& parameters) {
 }
 
 double least_sensing_range(const BarrierParameters& parameters) {
-  const double w = 2.0 * lag_of(parameters) * parameters.u_max_m_s;
+  const double w = 2.0 * barrier_lag(parameters) * parameters.u_max_m_s;
   const double met_at = w + std::hypot(barrier_radius(parameters), w) + 2.0 * parameters.u_max_m_s * parameters.dt_s;
   return std::min(met_at, derived_sensing_range(parameters));
 }
 
 Vec2 barrier_point(const BarrierParameters& parameters, const Body& body) {
   if (!body.is_controlled) return body.position;
-  return body.position + lag_of(parameters) * body.velocity;
+  return body.position + barrier_lag(parameters) * body.velocity;
 }
 
 PairBarrier separation_barrier(const BarrierParameters& parameters, const Body& own, const Body& other) {
@@ -195,6 +195,21 @@ double pair_reach(const BarrierParameters& parameters, const PairBarrier& barrie
   return reach_of_row(parameters, barrier);
 }
 
+double wall_reach(const BarrierParameters& parameters, double reserve_m) {
+  const double radius = parameters.wall_distance_m + reserve_m;
+  const auto binds = [&](double distance) {  // with a little to spare
+    return fixed_offset(parameters, distance, radius) > -(1.0 + 1e-9) * parameters.u_max_m_s;
+  };
+  double low = radius;
+  double high = radius + 1.0;
+  while (binds(high) && high < std::numeric_limits<double>::max() / 4.0) high *= 2.0;
+  for (int i = 0; i < 64; ++i) {
+    const double middle = 0.5 * (low + high);
+    (binds(middle) ? low : high) = middle;
+  }
+  return high;
+}
+
 double wall_distance(const field::Field& field, const Vec2& z, int wall) {
   const std::array distances{z.x(), field.length_x - z.x(), z.y(), field.length_y - z.y()};
   return distances[static_cast<std::size_t>(wall)];
@@ -211,7 +226,7 @@ std::optional<HalfPlane> wall_row(const BarrierParameters& parameters, const fie
 }
 
 double no_fly_radius(const BarrierParameters& parameters, double reserve_m) {
-  return std::hypot(parameters.no_fly_buffer_m + reserve_m, lag_of(parameters) * parameters.u_max_m_s);
+  return std::hypot(parameters.no_fly_buffer_m + reserve_m, barrier_lag(parameters) * parameters.u_max_m_s);
 }
 
 std::size_t outline_length(std::span<const field::Segment> edges) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <optional>
 #include <span>
 
@@ -65,6 +66,17 @@ struct PairBarrier {
 
 /// The distance of z beyond which pair_row() leaves the row out, whatever the velocities up to u_max.
 [[nodiscard]] double pair_reach(const BarrierParameters& parameters, const PairBarrier& barrier);
+
+/// lag of v' = (u - v)/lag as the barriers know it: 0 for kPaper.
+[[nodiscard]] double barrier_lag(const BarrierParameters& parameters);
+
+/// A distance beyond which wall_row() with this reserve, or a lesser one, leaves the row out.
+[[nodiscard]] double wall_reach(const BarrierParameters& parameters, double reserve_m);
+
+/// The distance from z to the nearest wall: negative outside.
+[[nodiscard]] inline double least_wall_distance(const field::Field& field, const Vec2& z) {
+  return std::min(std::min(z.x(), field.length_x - z.x()), std::min(z.y(), field.length_y - z.y()));
+}
 
 /// The distance from z to a wall of the field (0 left, 1 right, 2 bottom, 3 top): negative outside.
 [[nodiscard]] double wall_distance(const field::Field& field, const Vec2& z, int wall);

@@ -20,6 +20,14 @@ bool is_finite(const Body& body) {
          std::isfinite(body.uncooperative_speed_m_s);
 }
 
+/// Bodies ahead of the one at work whose data are sent for: by index they are anywhere in memory.
+constexpr std::size_t kAhead = 12;
+
+template <typename Value>
+void send_for(const Value& value) {
+  __builtin_prefetch(&value);
+}
+
 /// Drones that one thread steers before it asks for more.
 constexpr std::size_t kPart = 512;
 
@@ -64,12 +72,13 @@ void for_each_outline(std::span<const field::Segment> edges, const Visit& visit)
 Filter::Filter(const BarrierParameters& parameters, const field::Field& field, std::size_t capacity)
     : parameters_(parameters),
       field_(field),
+      lag_s_(barrier_lag(parameters)),
       pair_rows_(parameters),
+      pair_screen_(parameters),
       grid_(field, std::min(derived_sensing_range(parameters), parameters.sensing_range_m.value_or(HUGE_VAL)),
             capacity),
       bodies_(capacity),
-      points_x_(capacity),
-      points_y_(capacity),
+      columns_(capacity),
       extremes_(parts_of(capacity)) {}
 
 void Extremes::include(const Body& body) noexcept {
@@ -96,9 +105,14 @@ void Filter::run(std::span<const Body> bodies, std::span<const field::Segment> n
     Desk desk;
     for (std::size_t place = first; place < last; ++place) {
       const std::size_t own = sorted[place];
+      const std::size_t later = sorted[std::min(place + kAhead, last - 1)];
+      send_for(u_nom[later]);
+      send_for(u[later]);
+      send_for(reports[later]);
       Vec2 velocity = Vec2::Zero();
       FilterReport report;
-      if (bodies_[place].is_controlled) steer(own, bodies_[place], no_fly, u_nom[own], velocity, report, desk);
+      if (bodies_[place].is_controlled)
+        steer(place, own, bodies_[place], no_fly, u_nom[own], Gather::kPressing, velocity, report, desk);
       u[own] = velocity;
       reports[own] = report;
     }
@@ -112,7 +126,7 @@ Explanation Filter::explain(std::size_t own, std::span<const Body> bodies, std::
   why.u_nom = u_nom;
   place(bodies, nullptr);
   Desk desk;
-  if (bodies[own].is_controlled) steer(own, bodies[own], no_fly, u_nom, why.u, why.report, desk);
+  if (bodies[own].is_controlled) steer(0, own, bodies[own], no_fly, u_nom, Gather::kAll, why.u, why.report, desk);
   const std::span<const HalfPlane> half_planes = desk.rows.half_planes();
   for (std::size_t row = 0; row < half_planes.size(); ++row)
     why.rows.push_back({half_planes[row], desk.rows.what(row)});
@@ -120,20 +134,19 @@ Explanation Filter::explain(std::size_t own, std::span<const Body> bodies, std::
 }
 
 void Filter::place(std::span<const Body> bodies, parallel::Workers* workers) noexcept {
-  const auto point_of = [&](std::size_t i) {
+  const auto place_of = [&](std::size_t i) {
     const bool is_seen = bodies[i].is_obstacle && is_finite(bodies[i]);
-    return is_seen ? barrier_point(parameters_, bodies[i]) : nowhere();
+    return is_seen ? point_of(bodies[i]) : nowhere();
   };
-  grid_.sort(bodies.size(), point_of, workers);
+  grid_.sort(bodies.size(), place_of, workers);
   const std::span<const std::uint32_t> sorted = grid_.sorted();
   parallel::for_each_part(workers, sorted.size(), kPart, [&](std::size_t first, std::size_t last, std::size_t) {
     Extremes extremes;
     for (std::size_t place = first; place < last; ++place) {
+      send_for(bodies[sorted[std::min(place + kAhead, last - 1)]]);
       const Body& body = bodies[sorted[place]];
-      const Vec2 point = barrier_point(parameters_, body);
       bodies_[place] = body;
-      points_x_[place] = point.x();
-      points_y_[place] = point.y();
+      columns_.set(place, body, point_of(body), place < grid_.placed(), parameters_.u_max_m_s);
       extremes.include(body);
     }
     extremes_[first / kPart] = extremes;
@@ -142,22 +155,82 @@ void Filter::place(std::span<const Body> bodies, parallel::Workers* workers) noe
   for (std::size_t part = 0; part < parts_of(bodies.size()); ++part) extremes.include(extremes_[part]);
   const PairBarrier widest = widest_barrier(parameters_, extremes);
   reach_m_ = std::min(pair_reach(parameters_, widest), range_of(parameters_, widest));
+  Body oldest;
+  oldest.age_s = extremes.age_s;
+  wall_reach_m_ = wall_reach(parameters_, wall_reserve(parameters_, oldest));
 }
 
-void Filter::steer(std::size_t own, const Body& body, std::span<const field::Segment> no_fly, const Vec2& u_nom,
-                   Vec2& u, FilterReport& report, Desk& desk) const noexcept {
+Vec2 Filter::point_of(const Body& body) const noexcept {
+  return body.is_controlled ? Vec2(body.position + lag_s_ * body.velocity) : body.position;
+}
+
+void Filter::gather_fixed(const Vec2& z, const Body& body, std::span<const field::Segment> no_fly,
+                          RowSet& rows) const noexcept {
+  const double reserve_m = wall_reserve(parameters_, body);
+  if (least_wall_distance(field_, z) <= wall_reach_m_) gather_walls(z, body, reserve_m, Priority::kDoubt, rows);
+  if (no_fly.empty()) return;
+  gather_edges(z, body, no_fly, reserve_m, Priority::kDoubt, rows);
+  gather_ways_out(z, body, no_fly, rows);
+}
+
+/// False where that is not known: all have to be gathered then.
+bool Filter::gather_pressing(std::size_t place, std::size_t own, const Body& body, const Vec2& z,
+                             std::span<const field::Segment> no_fly, const Vec2& u_nom, FilterReport& report,
+                             Desk& desk) const noexcept {
+  Screening& screening = desk.screening;
+  const Screened drone{.place = place,
+                       .point = z,
+                       .position = body.position,
+                       .velocity = body.velocity,
+                       .drift_m = parameters_.u_max_m_s * std::max(0.0, body.age_s),
+                       .u_nom = u_nom,
+                       .reach_m = reach_m_};
+  screening.clear();
+  grid_.visit_parts(z, reach_m_, [&](std::size_t first, std::size_t last) { screening.add(first, last); });
+  pair_screen_.look(columns_, drone, screening);
+  constexpr std::size_t kWalls = 4;
+  const bool is_crowded = screening.within_range() + kWalls + 2 * no_fly.size() >= kMaxRows;
+  if (!screening.is_sure() || is_crowded) return false;
+
+  desk.nearest_m = std::numeric_limits<double>::infinity();
+  for (const std::uint32_t other : screening.nearest()) {
+    const Vec2 p_ij = body.position - bodies_[other].position;
+    const double distance = pair_formula::length(p_ij.x(), p_ij.y());
+    if (!(distance < desk.nearest_m)) continue;
+    desk.nearest_m = distance;
+    report.nearest = static_cast<int>(grid_.sorted()[other]);
+  }
+  if (report.nearest >= 0) report.nearest_distance_m = desk.nearest_m;
+  desk.nearest_m = 0.0;  // nobody is nearer
+  desk.gathered = 0;
+  for (const std::uint32_t other : screening.pressing()) {
+    desk.places[desk.gathered++] = other;
+    if (desk.gathered == PairBatch::kSize) add_pairs(own, body, z, report, desk);
+  }
+  if (desk.gathered > 0) add_pairs(own, body, z, report, desk);
+  gather_fixed(z, body, no_fly, desk.rows);
+  return std::ranges::none_of(desk.rows.half_planes(), [](const HalfPlane& row) { return row.offset > 0.0; });
+}
+
+void Filter::steer(std::size_t place, std::size_t own, const Body& body, std::span<const field::Segment> no_fly,
+                   const Vec2& u_nom, Gather gather, Vec2& u, FilterReport& report, Desk& desk) const noexcept {
   RowSet& rows = desk.rows;
   rows.clear();
-  const Vec2 z = barrier_point(parameters_, body);
+  const Vec2 z = point_of(body);
   report.input_rejected = !is_finite(body) || !z.allFinite() || !u_nom.allFinite();
   if (report.input_rejected) return;
 
-  const double reserve_m = wall_reserve(parameters_, body);
-  gather_pairs(own, body, z, report, desk);
-  gather_walls(z, body, reserve_m, Priority::kDoubt, rows);
-  gather_edges(z, body, no_fly, reserve_m, Priority::kDoubt, rows);
-  gather_ways_out(z, body, no_fly, rows);
-  PlanarQpSolution solution = solve(u_nom, rows.half_planes(), parameters_.u_max_m_s);
+  PlanarQpSolution solution;
+  solution.feasible = false;
+  if (gather == Gather::kPressing && gather_pressing(place, own, body, z, no_fly, u_nom, report, desk))
+    solution = solve(u_nom, rows.half_planes(), parameters_.u_max_m_s);
+  if (!solution.feasible) {
+    rows.clear();
+    report = {};
+    gather_pairs(own, body, z, report, desk);
+    gather_fixed(z, body, no_fly, rows);
+    solution = solve(u_nom, rows.half_planes(), parameters_.u_max_m_s);
+  }
   if (!solution.feasible) {
     // What lost drones might do can contradict all else, noise alone can break a margin, and margins of two neighbours
     // can contradict each other or a wall. They give way first: to rows that ask for less, so that they matter only
@@ -201,10 +274,8 @@ void Filter::gather_pairs(std::size_t own, const Body& body, const Vec2& z, Filt
     while (first < last) {
       const std::size_t end = std::min(last, first + (PairBatch::kSize - desk.gathered));
       for (; first < end; ++first) {
-        const double x = z.x() - points_x_[first];
-        const double y = z.y() - points_y_[first];
         desk.places[desk.gathered] = static_cast<std::uint32_t>(first);
-        desk.gathered += x * x + y * y <= reach_squared ? 1 : 0;
+        desk.gathered += (z - point_of(bodies_[first])).squaredNorm() <= reach_squared ? 1u : 0u;
       }
       if (desk.gathered == PairBatch::kSize) add_pairs(own, body, z, report, desk);
     }
@@ -222,8 +293,9 @@ void Filter::add_pairs(std::size_t own, const Body& body, const Vec2& z, FilterR
     const std::size_t place = desk.places[i];
     const Body& other = bodies_[place];
     are_controlled = are_controlled && other.is_controlled;
-    batch.point_x[i] = points_x_[place];
-    batch.point_y[i] = points_y_[place];
+    const Vec2 point = point_of(other);
+    batch.point_x[i] = point.x();
+    batch.point_y[i] = point.y();
     batch.position_x[i] = other.position.x();
     batch.position_y[i] = other.position.y();
     batch.velocity_x[i] = other.velocity.x();
@@ -260,7 +332,7 @@ void Filter::add_pairs_one_by_one(std::size_t own, const Body& body, const Vec2&
     const auto index = static_cast<int>(grid_.sorted()[place]);
     if (index == static_cast<int>(own)) continue;
     const PairBarrier barrier = separation_barrier(parameters_, body, other);
-    const Vec2 z_ij = z - Vec2(points_x_[place], points_y_[place]);
+    const Vec2 z_ij = z - point_of(other);
     if (z_ij.norm() > std::min(reach_m_, range_of(parameters_, barrier))) continue;
     const double distance = (body.position - other.position).norm();
     if (distance < desk.nearest_m) {
@@ -279,7 +351,7 @@ void Filter::gather_lesser_pairs(std::size_t own, const Body& body, const Vec2& 
     for (std::size_t place = first; place < last; ++place) {
       const Body& other = bodies_[place];
       const auto index = static_cast<int>(grid_.sorted()[place]);
-      const Vec2 z_ij = z - Vec2(points_x_[place], points_y_[place]);
+      const Vec2 z_ij = z - point_of(other);
       if (index == static_cast<int>(own) || z_ij.norm() > reach_m_) continue;
       const double distance = (body.position - other.position).norm();
       const auto add_row = [&](const PairBarrier& barrier, Priority priority) {

@@ -9,8 +9,10 @@
 #include "vigil/core/field/polygon.hpp"
 #include "vigil/core/parallel/workers.hpp"
 #include "vigil/core/safety/body.hpp"
+#include "vigil/core/safety/body_columns.hpp"
 #include "vigil/core/safety/neighbour_grid.hpp"
 #include "vigil/core/safety/pair_rows.hpp"
+#include "vigil/core/safety/pair_screen.hpp"
 #include "vigil/core/safety/planar_qp.hpp"
 #include "vigil/core/safety/row_set.hpp"
 
@@ -75,15 +77,25 @@ class Filter {
   /// What steering one drone after the other takes, beside what all share.
   struct Desk {
     RowSet rows;
+    Screening screening;
     PairBatch batch{};  // also what is in columns that nobody filled is a number
     std::array<std::uint32_t, PairBatch::kSize> places;
     std::size_t gathered = 0;
     double nearest_m = 0.0;
   };
 
+  /// Which rows of neighbours are gathered: those that may hold the drone, or all.
+  enum class Gather : std::uint8_t { kPressing, kAll };
+
   void place(std::span<const Body> bodies, parallel::Workers* workers) noexcept;
-  void steer(std::size_t own, const Body& body, std::span<const field::Segment> no_fly, const Vec2& u_nom, Vec2& u,
-             FilterReport& report, Desk& desk) const noexcept;
+  [[nodiscard]] Vec2 point_of(const Body& body) const noexcept;
+  void steer(std::size_t place, std::size_t own, const Body& body, std::span<const field::Segment> no_fly,
+             const Vec2& u_nom, Gather gather, Vec2& u, FilterReport& report, Desk& desk) const noexcept;
+  [[nodiscard]] bool gather_pressing(std::size_t place, std::size_t own, const Body& body, const Vec2& z,
+                                     std::span<const field::Segment> no_fly, const Vec2& u_nom, FilterReport& report,
+                                     Desk& desk) const noexcept;
+  void gather_fixed(const Vec2& z, const Body& body, std::span<const field::Segment> no_fly,
+                    RowSet& rows) const noexcept;
   void gather_pairs(std::size_t own, const Body& body, const Vec2& z, FilterReport& report, Desk& desk) const noexcept;
   void add_pairs(std::size_t own, const Body& body, const Vec2& z, FilterReport& report, Desk& desk) const noexcept;
   void add_pairs_one_by_one(std::size_t own, const Body& body, const Vec2& z, FilterReport& report,
@@ -99,14 +111,16 @@ class Filter {
 
   BarrierParameters parameters_;
   field::Field field_;
+  double lag_s_;  ///< of barrier_point()
   PairRows pair_rows_;
+  PairScreen pair_screen_;
   NeighbourGrid grid_;
   // In the order of the grid: what is near in the field is near in memory.
   std::vector<Body> bodies_;
-  std::vector<double> points_x_;  ///< of barrier_point()
-  std::vector<double> points_y_;
+  BodyColumns columns_;
   std::vector<Extremes> extremes_;  ///< of each part of them
   double reach_m_ = 0.0;            ///< no body farther than this from another's point has a row
+  double wall_reach_m_ = 0.0;       ///< no wall farther than this from a point has one
 };
 
 }  // namespace vigil::safety
