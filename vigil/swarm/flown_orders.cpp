@@ -23,10 +23,14 @@ FlownOrders::FlownOrders(std::size_t drones, double dt_s, double longest_s)
       kept_(static_cast<std::size_t>(std::ceil(longest_s / dt_s)) + 1),
       velocities_(drones * kept_, Vec2::Zero()) {}
 
+std::span<Vec2> FlownOrders::begin_tick() noexcept {
+  newest_ = (newest_ + 1) % kept_;
+  return std::span(velocities_).subspan(newest_ * drones_, drones_);
+}
+
 void FlownOrders::remember(std::span<const Vec2> u) noexcept {
   assert(u.size() == drones_);
-  newest_ = (newest_ + 1) % kept_;
-  std::copy(u.begin(), u.end(), velocities_.begin() + static_cast<std::ptrdiff_t>(newest_ * drones_));
+  std::copy(u.begin(), u.end(), begin_tick().begin());
 }
 
 const Vec2& FlownOrders::ordered(std::size_t drone, std::size_t ticks_ago) const noexcept {

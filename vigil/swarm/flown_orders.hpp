@@ -24,6 +24,8 @@ class FlownOrders {
 
   /// The orders of one tick, one per drone; zero for one that is not ordered to fly anywhere.
   void remember(std::span<const Vec2> u) noexcept;
+  /// The same: what is returned has to be filled, in any order.
+  [[nodiscard]] std::span<Vec2> begin_tick() noexcept;
 
   /// What a drone was ordered to fly so many ticks before the newest; what exceeds the memory is the oldest.
   [[nodiscard]] const Vec2& ordered(std::size_t drone, std::size_t ticks_ago) const noexcept;

@@ -67,6 +67,7 @@ SwarmState::SwarmState(const SwarmParameters& parameters)
     : parameters_(parameters),
       basis_(parameters.field, parameters.basis_max_index, parameters.basis_smoothness),
       kernels_(threads_worth(parameters.drones), ergodic::Kernel(basis_)),
+      sums_(basis_, parameters.drones),
       statistics_(basis_, parameters.accounting, parameters.memory_s),
       look_ahead_(basis_, look_ahead_parameters(parameters), looks_ahead(parameters) ? parameters.drones : 0),
       goal_seeker_(seeker_parameters(parameters), parameters.drones),
@@ -301,9 +302,12 @@ void SwarmState::gather_active(parallel::Workers* workers) noexcept {
   if (active_ != active_before_) ++active_set_;
 }
 
-void SwarmState::measure_coverage(Snapshot& out) noexcept {
+void SwarmState::measure_coverage(Snapshot& out, parallel::Workers* workers) noexcept {
+  const auto add_basis = [&](double weight, ergodic::Coefficients& sum_k) {
+    sums_.add(kernels_, active_positions_, weight, sum_k, workers);
+  };
   // Hovering for want of targets is no coverage: it would weigh on the statistics of the targets to come.
-  if (target_.has_targets) statistics_.add(kernels_[0], active_positions_, active_set_, parameters_.dt_s);
+  if (target_.has_targets) statistics_.add_by(add_basis, active_.size(), active_set_, parameters_.dt_s);
   statistics_.average(c_k_);
 
   out.has_metric = target_.has_targets && statistics_.has_samples();
@@ -340,7 +344,7 @@ void SwarmState::look_ahead() noexcept {
 void SwarmState::cover(Snapshot& out, parallel::Workers* workers) noexcept {
   out.active = active_.size();
   out.idle = !target_.has_targets ? Idle::kNoTargets : active_.empty() ? Idle::kNoActiveDrone : Idle::kNone;
-  measure_coverage(out);
+  measure_coverage(out, workers);
   if (out.idle != Idle::kNone) return;
 
   active_u_.resize(active_.size());  // within its capacity
@@ -456,13 +460,14 @@ void SwarmState::write_order(std::size_t index, DroneSnapshot& to) noexcept {
 }
 
 void SwarmState::write_orders(Snapshot& out, parallel::Workers* workers) noexcept {
+  const std::span<Vec2> flown = flown_.begin_tick();
   if (is_any(&PartNote::has_starter)) sort_air(workers);
   for_each_drone(workers, [&](std::size_t index, PartNote& note) {
     write_order(index, out.drones[index]);
+    flown[index] = u_[index];
     note.has_fallback = note.has_fallback || reports_[index].fallback;
   });
   out.fallback = is_any(&PartNote::has_fallback);
-  flown_.remember(u_);
 }
 
 void tick(SwarmState& state, std::span<const DroneObservation> observations, std::span<const Command> commands,

@@ -11,6 +11,7 @@
 #include "vigil/core/guidance/way_finder.hpp"
 #include "vigil/core/parallel/workers.hpp"
 #include "vigil/core/safety/filter.hpp"
+#include "vigil/swarm/basis_sums.hpp"
 #include "vigil/swarm/command.hpp"
 #include "vigil/swarm/fault_monitor.hpp"
 #include "vigil/swarm/flown_orders.hpp"
@@ -89,7 +90,7 @@ class SwarmState {
   void predict(std::size_t index) noexcept;
   void gather_active(parallel::Workers* workers) noexcept;
   void cover(Snapshot& out, parallel::Workers* workers) noexcept;
-  void measure_coverage(Snapshot& out) noexcept;
+  void measure_coverage(Snapshot& out, parallel::Workers* workers) noexcept;
   void go_down_the_gradient(parallel::Workers* workers) noexcept;
   void look_ahead() noexcept;
   void seek_goals() noexcept;
@@ -108,6 +109,7 @@ class SwarmState {
   SwarmParameters parameters_;
   ergodic::Basis basis_;
   std::vector<ergodic::Kernel> kernels_;  ///< one for each thread that may share a tick
+  BasisSums sums_;
   ergodic::CoverageStatistics statistics_;
   ergodic::LookAhead look_ahead_;
   guidance::GoalSeeker goal_seeker_;

@@ -32,17 +32,21 @@ CoverageStatistics::CoverageStatistics(const Basis& basis, Accounting accounting
 
 void CoverageStatistics::add(Kernel& kernel, std::span<const Vec2> positions, std::size_t active_set,
                              double dt_s) noexcept {
+  const auto add_basis = [&](double weight, Coefficients& sum_k) { add_evenly(kernel, positions, weight, sum_k); };
+  add_by(add_basis, positions.size(), active_set, dt_s);
+}
+
+bool CoverageStatistics::begin_sample(std::size_t drones, std::size_t active_set, double dt_s) noexcept {
   assert(dt_s > 0.0);
-  if (accounting_ == Accounting::kPaperEq14 && (positions.empty() || active_set != active_set_)) end_phase();
+  if (accounting_ == Accounting::kPaperEq14 && (drones == 0 || active_set != active_set_)) end_phase();
   active_set_ = active_set;
-  if (positions.empty()) return;
+  if (drones == 0) return false;
 
   const double kept_share = kept(dt_s);
-  const double each_s = gain_s(dt_s, positions.size());
   sum_ *= kept_share;
-  add_evenly(kernel, positions, each_s, sum_);
-  time_s_ = time_s_ * kept_share + each_s * static_cast<double>(positions.size());
+  time_s_ = time_s_ * kept_share + gain_s(dt_s, drones) * static_cast<double>(drones);
   has_samples_ = true;
+  return true;
 }
 
 void CoverageStatistics::average(Coefficients& c_k) const noexcept {

@@ -37,6 +37,12 @@ class CoverageStatistics {
   /// for kPaperEq14, ends the phase. `active_set` tells phases apart: a number that differs whenever other drones are
   /// summed. Precondition: the kernel is one of the same basis; positions finite.
   void add(Kernel& kernel, std::span<const Vec2> positions, std::size_t active_set, double dt_s) noexcept;
+  /// The same where somebody else sums up: add_basis(weight, sum_k) adds weight times the sum of f_k over the drones.
+  template <typename AddBasis>
+  void add_by(const AddBasis& add_basis, std::size_t drones, std::size_t active_set, double dt_s) noexcept {
+    if (!begin_sample(drones, active_set, dt_s)) return;
+    add_basis(gain_s(dt_s, drones), sum_);
+  }
 
   /// c_k of (4) or (14), 1/m; all zero before the first sample. Precondition: c_k is (K+1) x (K+1).
   void average(Coefficients& c_k) const noexcept;
@@ -63,6 +69,8 @@ class CoverageStatistics {
   [[nodiscard]] bool read(const CoverageRecord& record);
 
  private:
+  /// All of a sample but its sums; false where there are none.
+  [[nodiscard]] bool begin_sample(std::size_t drones, std::size_t active_set, double dt_s) noexcept;
   void end_phase() noexcept;
 
   Accounting accounting_;
