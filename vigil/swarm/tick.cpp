@@ -98,7 +98,7 @@ SwarmState::SwarmState(const SwarmParameters& parameters)
   active_before_.reserve(parameters.drones);
   active_positions_.reserve(parameters.drones);
   if (looks_ahead(parameters)) departures_.reserve(parameters.drones);
-  active_u_.reserve(parameters.drones);
+  if (looks_ahead(parameters)) active_u_.reserve(parameters.drones);
   travellers_.reserve(parameters.drones);
   travel_u_.reserve(parameters.drones);
 }
@@ -326,7 +326,7 @@ void SwarmState::go_down_the_gradient(parallel::Workers* workers) noexcept {
     const std::span<const Vec2> positions = std::span(active_positions_).subspan(first, last - first);
     kernels_[thread].gradient(positions, a_k_, std::span(slopes).first(positions.size()));  // (7)
     for (std::size_t i = first; i < last; ++i)                                              // (9)
-      active_u_[i] = ergodic::faded_direction(slopes[i - first], parameters_.barrier.u_max_m_s, fade_delta_);
+      u_nom_[active_[i]] = ergodic::faded_direction(slopes[i - first], parameters_.barrier.u_max_m_s, fade_delta_);
   };
   parallel::for_each_part(workers, active_.size(), kPart, steer);
 }
@@ -338,7 +338,9 @@ void SwarmState::look_ahead() noexcept {
                                       .wall_distance_m = barrier.wall_distance_m + reserve_m,
                                       .no_fly_distance_m = safety::no_fly_radius(barrier, reserve_m),
                                       .no_fly = target_.no_fly};
+  active_u_.resize(active_.size());  // within its capacity
   look_ahead_.steer(kernels_[0], statistics_, target_.phi_k, region, departures_, active_u_);
+  for (std::size_t i = 0; i < active_.size(); ++i) u_nom_[active_[i]] = active_u_[i];
 }
 
 void SwarmState::cover(Snapshot& out, parallel::Workers* workers) noexcept {
@@ -347,12 +349,10 @@ void SwarmState::cover(Snapshot& out, parallel::Workers* workers) noexcept {
   measure_coverage(out, workers);
   if (out.idle != Idle::kNone) return;
 
-  active_u_.resize(active_.size());  // within its capacity
   if (looks_ahead(parameters_))
     look_ahead();
   else
     go_down_the_gradient(workers);
-  for (std::size_t i = 0; i < active_.size(); ++i) u_nom_[active_[i]] = active_u_[i];
 }
 
 /// Round no-fly polygons, by the point that the filter keeps clear of them.
