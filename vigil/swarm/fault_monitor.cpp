@@ -10,7 +10,6 @@
 namespace vigil::swarm {
 namespace {
 
-constexpr double kNever = std::numeric_limits<double>::infinity();
 constexpr double kOver = 0.5;           // of a threshold: below it, what was beyond is well again
 constexpr int kMostRelapses = 6;        // the time that it must stay well doubles with each
 constexpr double kForgottenS = 60.0;    // well for so long, and relapses are forgotten
