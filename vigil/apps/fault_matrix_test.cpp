@@ -31,8 +31,9 @@ TEST_P(FaultMatrix, Every_fault_that_shows_is_noticed_in_its_time_and_nobody_els
       SCOPED_TRACE(std::string(runtime::kMisfortuneWords.at(fault)) + ", seed " + std::to_string(seed));
       const FaultTrial trial = runtime::fly_trial(mission, fleet_of, static_cast<Misfortune>(fault), seed);
       EXPECT_EQ(trial.false_alarms, 0U);
-      if (static_cast<Misfortune>(fault) != Misfortune::kFliesAway)  // nobody can evade who is faster
+      if (static_cast<Misfortune>(fault) != Misfortune::kFliesAway) {  // nobody can evade who is faster
         EXPECT_EQ(trial.others_violation_ticks, 0U);
+      }
       if (!trial.has_shown) continue;
       EXPECT_TRUE(trial.is_in_time) << trial.delay_s << " s, stated "
                                     << runtime::stated_time_s(mission, static_cast<Misfortune>(fault));
