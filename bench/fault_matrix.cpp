@@ -31,6 +31,7 @@ using runtime::Mission;
 constexpr std::array<std::string_view, 5> kVehicles{"ideal", "first_order_lag", "crazyflie", "arducopter", "px4"};
 constexpr std::size_t kFaults = runtime::kMisfortuneWords.size();
 constexpr double kQuietFlightS = 3600.0;
+constexpr std::uint64_t kFirstSeed = 10'000;  // of moments that no threshold was looked at with
 
 std::unique_ptr<runtime::VirtualFleet> make_fleet(const Mission& mission) { return apps::simulated_fleet(mission); }
 
@@ -54,9 +55,9 @@ std::string fly(const Job& job, const Mission& mission) {
   if (job.fault == kFaults)
     return fmt::format("{},{}", job.key(), runtime::false_alarms(mission, make_fleet, job.seed, kQuietFlightS));
   const FaultTrial t = runtime::fly_trial(mission, make_fleet, static_cast<Misfortune>(job.fault), job.seed);
-  return fmt::format("{},{:d},{:d},{:d},{:d},{},{},{},{},{}", job.key(), t.has_shown, t.is_noticed, t.is_in_time,
+  return fmt::format("{},{:d},{:d},{:d},{:d},{},{},{},{},{},{}", job.key(), t.has_shown, t.is_noticed, t.is_in_time,
                      t.is_named_rightly, t.delay_s, t.false_alarms, t.close_ticks, t.contact_ticks,
-                     t.others_violation_ticks);
+                     t.others_violation_ticks, t.unnoticed_s);
 }
 
 using Results = std::map<std::string, std::vector<double>>;
@@ -68,7 +69,7 @@ Results read_results(const std::string& path) {
     std::stringstream fields(line);
     std::vector<double> values;
     for (std::string field; std::getline(fields, field, ',');) values.push_back(std::strtod(field.c_str(), nullptr));
-    const bool is_whole = values.size() == 12 || (values.size() == 4 && values[1] == static_cast<double>(kFaults));
+    const bool is_whole = values.size() == 13 || (values.size() == 4 && values[1] == static_cast<double>(kFaults));
     if (is_whole) results[fmt::format("{},{},{}", values[0], values[1], values[2])] = values;
   }
   return results;
@@ -78,9 +79,9 @@ std::vector<Job> all_jobs(std::uint64_t moments, std::uint64_t hours) {
   std::vector<Job> jobs;
   for (std::uint64_t seed = 1; seed <= moments; ++seed)
     for (std::size_t vehicle = 0; vehicle < kVehicles.size(); ++vehicle)
-      for (std::size_t fault = 0; fault < kFaults; ++fault) jobs.push_back({vehicle, fault, seed});
+      for (std::size_t fault = 0; fault < kFaults; ++fault) jobs.push_back({vehicle, fault, kFirstSeed + seed});
   for (std::uint64_t hour = 1; hour <= hours; ++hour)
-    jobs.push_back({(hour - 1) % kVehicles.size(), kFaults, 1000 + hour});
+    jobs.push_back({(hour - 1) % kVehicles.size(), kFaults, kFirstSeed + hour});
   return jobs;
 }
 
@@ -124,6 +125,7 @@ struct Cell {
   double others = 0.0;
   double false_alarms = 0.0;
   std::vector<double> delays;
+  std::vector<double> unnoticed;
 };
 
 Cell cell_of(const Results& results, std::size_t vehicle, std::size_t fault) {
@@ -140,17 +142,21 @@ Cell cell_of(const Results& results, std::size_t vehicle, std::size_t fault) {
     cell.noticed += v[4] != 0.0 ? 1U : 0U;
     cell.in_time += v[5] != 0.0 ? 1U : 0U;
     cell.named += v[6] != 0.0 ? 1U : 0U;
-    if (v[4] != 0.0) cell.delays.push_back(v[7]);
+    if (v[4] == 0.0) continue;
+    cell.delays.push_back(v[7]);
+    cell.unnoticed.push_back(v[12]);
   }
-  std::sort(cell.delays.begin(), cell.delays.end());
+  std::ranges::sort(cell.delays);
+  std::ranges::sort(cell.unnoticed);
   return cell;
 }
 
 void print_tables(const Results& results) {
   fmt::print(
-      "| fault | vehicle | flights | shown | stated s | median s | worst s | in time | ever | named rightly | "
+      "| fault | vehicle | flights | shown | stated s | median s | worst s | since it befell: median s | worst s | in "
+      "time | ever | named rightly | "
       "flights with: closer than R_s to it | contact | others' violations | false alarms |\n");
-  fmt::print("| --- | --- | --- | --- | --- | --- | --- | --- | --- | --- | --- | --- | --- | --- |\n");
+  fmt::print("| --- | --- | --- | --- | --- | --- | --- | --- | --- | --- | --- | --- | --- | --- | --- | --- |\n");
   Cell sum;
   for (std::size_t fault = 0; fault < kFaults; ++fault) {
     for (std::size_t vehicle = 0; vehicle < kVehicles.size(); ++vehicle) {
@@ -158,10 +164,12 @@ void print_tables(const Results& results) {
       const double stated = runtime::stated_time_s(runtime::trial_mission(mission_of(kVehicles[vehicle])),
                                                    static_cast<Misfortune>(fault));
       const bool any = !cell.delays.empty();
-      fmt::print("| {} | {} | {} | {} | {:.2f} | {:.2f} | {:.2f} | {} | {} | {} | {} | {} | {} | {} |\n",
-                 runtime::kMisfortuneWords[fault], kVehicles[vehicle], cell.trials, cell.shown, stated,
-                 any ? cell.delays[cell.delays.size() / 2] : 0.0, any ? cell.delays.back() : 0.0, cell.in_time,
-                 cell.noticed, cell.named, cell.close, cell.contact, cell.others, cell.false_alarms);
+      fmt::print(
+          "| {} | {} | {} | {} | {:.2f} | {:.2f} | {:.2f} | {:.2f} | {:.2f} | {} | {} | {} | {} | {} | {} | {} |\n",
+          runtime::kMisfortuneWords[fault], kVehicles[vehicle], cell.trials, cell.shown, stated,
+          any ? cell.delays[cell.delays.size() / 2] : 0.0, any ? cell.delays.back() : 0.0,
+          any ? cell.unnoticed[cell.unnoticed.size() / 2] : 0.0, any ? cell.unnoticed.back() : 0.0, cell.in_time,
+          cell.noticed, cell.named, cell.close, cell.contact, cell.others, cell.false_alarms);
       sum.shown += cell.shown;
       sum.in_time += cell.in_time;
       sum.noticed += cell.noticed;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "vigil/core/dynamics/failsafe.hpp"
 #include "vigil/runtime/mission_margins.hpp"
 #include "vigil/runtime/mission_setup.hpp"
 
@@ -54,6 +55,8 @@ dynamics::FaultProblem fault_problem(const Mission& mission) {
   problem.push_m_s2 = margins.push_m_s2;
   problem.push_time_s = margins.push_time_s;
   problem.held_s = longest_burst_s(mission) + margins.unsteady_delay_s;
+  problem.packet_period_s = packet_period_s(mission);
+  problem.hovers_after_s = dynamics::failsafe_of(assumed_vehicle(mission).kind).hover_after_s;
   problem.lost_share = mission.simulation.link.loss;
   problem.misfit_share = misfit_share(assumed_vehicle(mission).kind);
   return problem;

@@ -12,6 +12,7 @@
 #include "vigil/runtime/mission_margins.hpp"
 #include "vigil/runtime/mission_setup.hpp"
 #include "vigil/runtime/virtual_flight.hpp"
+#include "vigil/swarm/ordered_flight.hpp"
 
 namespace vigil::runtime {
 namespace {
@@ -97,44 +98,39 @@ double skew_m_s(const Mission& mission) {
                   kClearlyBeyond * bounds.disagreement_m * bounds.disagreement_leak_per_s);
 }
 
-/// What neither noise and gusts nor orders that got lost explain.
-double clear_departure_m(const Mission& mission) {
-  const dynamics::FaultBounds bounds = fault_parameters(mission).bounds;
-  return kClearlyBeyond * (bounds.residual_m + mission.control.speed_limit_m_s * bounds.held_s);
-}
-
 /// The time in which a constant speed fills a leaky integral up to a threshold.
 double filling_s(double threshold_m, double leak_per_s, double speed_m_s) {
   return -std::log1p(-threshold_m * leak_per_s / speed_m_s) / leak_per_s;
 }
 
-/// Where orders would have led a drone, had it followed them.
+/// Where its orders lead a drone, and how far the truth departs from there, in the monitor's memory.
 class Shadow {
  public:
   explicit Shadow(const Mission& mission)
-      : parameters_(fault_parameters(mission)),
-        dt_s_(tick_s(mission)),
-        delay_(static_cast<std::size_t>(std::lround(command_delay_s(mission) / dt_s_))) {}
+      : rules_(fault_parameters(mission), tick_s(mission)),
+        delay_(static_cast<std::size_t>(std::lround(command_delay_s(mission) / rules_.dt_s))) {}
 
-  void begin(const TruthSample& truth) {
-    state_.position = truth.position;
-    state_.velocity = truth.velocity;
-    begun_ = true;
-  }
-  void order(const Vec2& u) {
+  void begin() { departure_.setZero(); }
+  /// One tick: what it was ordered, and where it is after it.
+  void take(const Vec2& u, const Vec2& place) {
     orders_.push_back(u);
     if (orders_.size() > delay_ + 1) orders_.pop_front();
-    if (begun_) state_ = dynamics::advance(parameters_.loop, state_, orders_.front(), dt_s_);
+    const Vec2 before = led_.place();
+    led_.fly(rules_, orders_.front());
+    departure_ = rules_.keeps * departure_ + (place - place_) - (led_.place() - before);
+    place_ = place;
   }
-  [[nodiscard]] double departed_m(const TruthSample& truth) const { return (truth.position - state_.position).norm(); }
+  [[nodiscard]] bool is_clearly_beyond() const {
+    return departure_.norm() > kClearlyBeyond * (rules_.parameters.bounds.residual_m + led_.explained_m());
+  }
 
  private:
-  swarm::FaultParameters parameters_;
-  double dt_s_;
+  swarm::OrderedFlight::Rules rules_;
   std::size_t delay_;
   std::deque<Vec2> orders_;
-  dynamics::PlanarLoopState state_;
-  bool begun_ = false;
+  swarm::OrderedFlight led_;
+  Vec2 place_ = Vec2::Zero();
+  Vec2 departure_ = Vec2::Zero();
 };
 
 std::size_t nearest_to(std::span<const TruthSample> truth, std::size_t drone) {
@@ -192,7 +188,7 @@ class Trial {
     befell_s_ = now_s;
     const std::span<const TruthSample> truth = fleet_->truth();
     other_ = nearest_to(truth, drone_);
-    shadow_.begin(truth[drone_]);
+    shadow_.begin();
     const swarm::DroneId id(drone_);
     const Vec2 direction(std::cos(angle_), std::sin(angle_));
     const double u_max = mission_.control.speed_limit_m_s;
@@ -235,8 +231,7 @@ class Trial {
 
   [[nodiscard]] bool has_shown() const {
     const TruthSample& truth = fleet_->truth()[drone_];
-    if (misfortune_ == Misfortune::kDeaf || misfortune_ == Misfortune::kDrifting)
-      return shadow_.departed_m(truth) > clear_departure_m(mission_);
+    if (misfortune_ == Misfortune::kDeaf || misfortune_ == Misfortune::kDrifting) return shadow_.is_clearly_beyond();
     if (misfortune_ == Misfortune::kFliesAway)
       return beyond(limits_.field, truth.position) > kClearlyBeyond * bounds_.outside_m;
     return true;
@@ -248,7 +243,7 @@ class Trial {
 
   void take(double now_s) {
     const swarm::Snapshot& snapshot = flight_.snapshot();
-    shadow_.order(snapshot.drones[drone_].order.velocity);
+    shadow_.take(snapshot.drones[drone_].order.velocity, fleet_->truth()[drone_].position);
     alarms_.resize(snapshot.drones.size());
     for (std::size_t i = 0; i < snapshot.drones.size(); ++i) {
       const bool alarm = is_alarm(snapshot.drones[i]);
@@ -273,6 +268,7 @@ class Trial {
     }
     if (!result_.is_noticed || !result_.has_shown) return;
     result_.delay_s = noticed_s_ - shown_s_;
+    result_.unnoticed_s = noticed_s_ - befell_s_;
     result_.is_in_time = result_.delay_s <= stated_s_;
     result_.is_named_rightly = is_right(misfortune_, name_);
   }
@@ -358,7 +354,6 @@ double stated_time_s(const Mission& mission, Misfortune misfortune) {
              position_news_s(mission);
     case Misfortune::kDeaf:
     case Misfortune::kDrifting:
-      return bounds.held_s + std::numbers::ln2 / bounds.residual_leak_per_s + position_news_s(mission);
     case Misfortune::kFliesAway:
       return position_news_s(mission);
     case Misfortune::kLands:

@@ -33,7 +33,7 @@ inline constexpr std::array<std::string_view, 12> kMisfortuneWords{
     "deaf",   "drifting", "flies away", "lands by itself", "pilot unasked", "failed"};
 
 /// For so long at most it may go unnoticed, from the moment when it shows: at once, but for kDeaf and kDrifting, which
-/// show when the drone is twice as far from where its orders lead as noise, gusts and lost orders explain, and
+/// show when the drone is twice as far from where its latest orders lead as noise, gusts and lost orders explain, and
 /// kFliesAway, which shows when it is outside. Derived: docs/derivations/faults.md.
 [[nodiscard]] double stated_time_s(const Mission& mission, Misfortune misfortune);
 
@@ -43,6 +43,7 @@ struct FaultTrial {
   bool is_in_time = false;                   ///< within stated_time_s()
   bool is_named_rightly = false;             ///< by what stood there last within that time
   double delay_s = 0.0;                      ///< from when it showed; negative: it was noticed before
+  double unnoticed_s = 0.0;                  ///< from when it befell
   std::uint64_t false_alarms = 0;            ///< a monitor's, of drones with which nothing is wrong
   std::uint64_t close_ticks = 0;             ///< ticks x pairs closer than separation_m, the faulty one among them
   std::uint64_t contact_ticks = 0;           ///< ticks x pairs closer than contact_distance_m

@@ -5,8 +5,6 @@
 #include <cmath>
 #include <limits>
 
-#include "vigil/core/dynamics/planar_vehicle.hpp"
-
 namespace vigil::swarm {
 namespace {
 
@@ -15,7 +13,6 @@ constexpr int kMostRelapses = 6;        // the time that it must stay well doubl
 constexpr double kForgottenS = 60.0;    // well for so long, and relapses are forgotten
 constexpr double kSteadyPeriods = 2.5;  // positions farther apart say nothing of the velocity between them
 constexpr int kLeastRepeats = 4;
-constexpr double kSilentPeriods = 5.0;
 
 /// In the air and, as far as it says, under our orders: what the monitor has expectations of.
 bool is_ours(const DroneMemory& drone, VehicleMode mode) {
@@ -66,7 +63,12 @@ Vec2 velocity_of(const DroneObservation& observed) {
 }  // namespace
 
 FaultMonitor::FaultMonitor(const WatchSetup& setup, std::size_t drones)
-    : setup_(setup), watched_(setup.parameters.watches ? drones : 0) {}
+    : setup_(setup), rules_(setup.parameters, setup.dt_s), watched_(setup.parameters.watches ? drones : 0) {
+  const double ago = (setup_.command_delay_s + setup_.observation_delay_s) / setup_.dt_s;
+  const double whole = std::floor(ago + 1e-6);
+  ago_ticks_ = static_cast<std::size_t>(whole);
+  ago_part_ = std::max(0.0, ago - whole);
+}
 
 double FaultMonitor::reach_m(double span_s) const noexcept {
   const dynamics::FaultBounds& bounds = setup_.parameters.bounds;
@@ -75,64 +77,26 @@ double FaultMonitor::reach_m(double span_s) const noexcept {
 
 /// The order that acts at the moment which is seen now, between two where delays are not whole ticks.
 void FaultMonitor::fly_model(Watched& drone, std::size_t index, const FlownOrders& flown) const noexcept {
-  const FaultParameters& parameters = setup_.parameters;
-  const double ago = (setup_.command_delay_s + setup_.observation_delay_s) / setup_.dt_s;
-  const double whole = std::floor(ago + 1e-6);
-  const double part = std::max(0.0, ago - whole);
-  const auto ticks = static_cast<std::size_t>(whole);
-  const Vec2 u = (1.0 - part) * flown.ordered(index, ticks) + part * flown.ordered(index, ticks + 1);
-  if (parameters.acceleration_limit_m_s2) {
-    const dynamics::PlanarVehicle vehicle{1.0 / parameters.loop.proportional_per_s, parameters.acceleration_limit_m_s2};
-    const dynamics::PlanarState next =
-        dynamics::advance(vehicle, {drone.model.position, drone.model.velocity}, u, setup_.dt_s);
-    drone.model.position = next.position;
-    drone.model.velocity = next.velocity;
-  } else {
-    drone.model = dynamics::advance(parameters.loop, drone.model, u, setup_.dt_s);
-  }
-  hold_orders(drone, u);
-  drone.ordered = u;
+  drone.model.fly(
+      rules_, (1.0 - ago_part_) * flown.ordered(index, ago_ticks_) + ago_part_ * flown.ordered(index, ago_ticks_ + 1));
 }
 
-/// Any of the orders of the last held_s may be flown still; eight of them stand for all.
-void FaultMonitor::hold_orders(Watched& drone, const Vec2& u) const noexcept {
-  const dynamics::FaultBounds& bounds = setup_.parameters.bounds;
-  const double spacing_s = (bounds.held_s + setup_.dt_s) / static_cast<double>(kHeldOrders - 1);
-  double astray_m = 0.0;
-  for (HeldOrder& held : drone.held) {
-    held.for_s += setup_.dt_s;
-    held.astray += setup_.dt_s * (u - held.u);
-    if (held.for_s <= bounds.held_s + spacing_s + 1.5 * setup_.dt_s) astray_m = std::max(astray_m, held.astray.norm());
-  }
-  const double fade = std::exp(-bounds.residual_leak_per_s * setup_.dt_s);
-  drone.held_m = std::max(fade * drone.held_m, astray_m);
-  const double lately = (u - drone.held[(drone.newest_held + kHeldOrders - 1) % kHeldOrders].u).norm();
-  drone.lost_m = fade * drone.lost_m + setup_.dt_s * bounds.lost_share * lately;
-  if (drone.held[drone.newest_held].for_s < spacing_s - 0.5 * setup_.dt_s) return;
-  drone.newest_held = (drone.newest_held + 1) % kHeldOrders;
-  drone.held[drone.newest_held] = {u, Vec2::Zero(), 0.0};
-}
-
-/// Goes on from what is measured, with all that is not known of the vehicle's inner state as an allowance.
+/// Goes on from what is measured.
 void FaultMonitor::rest_model(Watched& drone, const Vec2& velocity) const noexcept {
-  const dynamics::VelocityLoop& loop = setup_.parameters.loop;
-  drone.model = {};
-  drone.model.velocity = velocity;
-  const double settles_s = dynamics::is_immediate(loop) ? 0.0 : 1.0 / loop.proportional_per_s;
+  drone.model.restart(rules_, velocity);
   drone.model_place.setZero();
   drone.stream.model_at_change.setZero();
   drone.residual.setZero();
   drone.disagreement.setZero();
-  drone.held_m = std::max(drone.held_m, 2.0 * settles_s * velocity.norm());
 }
 
 Vec2 FaultMonitor::model_place_at(const Watched& drone, double stamp_s) const noexcept {
   const double later_s = stamp_s - (now_s_ - setup_.observation_delay_s);
-  return drone.model.position + later_s * drone.model.velocity;
+  return drone.model.place() + later_s * drone.model.velocity();
 }
 
 double FaultMonitor::residual_threshold(const Watched& drone) const noexcept {
-  return setup_.parameters.bounds.residual_m + drone.held_m + drone.lost_m;
+  return setup_.parameters.bounds.residual_m + drone.model.explained_m();
 }
 
 /// Whether it leaps.
@@ -321,14 +285,8 @@ void FaultMonitor::name_fault(Watched& drone) const noexcept {
     report = {};
 }
 
-/// Who is not heard for longer may not hear either: its own failsafe moves it then, and nobody knows how.
-double FaultMonitor::silent_after_s() const noexcept {
-  const double few_s = kSilentPeriods * setup_.parameters.bounds.period_s;
-  return std::max(0.5 * setup_.health.link_timeout_s, std::min(few_s, setup_.health.link_timeout_s));
-}
-
 void FaultMonitor::watch_motion(Watched& drone, double link_age_s, bool is_judged) const noexcept {
-  const bool is_silent = link_age_s > silent_after_s();
+  const bool is_silent = link_age_s > setup_.parameters.bounds.silent_s;
   if (drone.is_silent && !is_silent) rest_model(drone, drone.velocity);
   drone.is_silent = is_silent;
   if (!is_judged) {

@@ -1,15 +1,14 @@
 #pragma once
 
-#include <array>
 #include <optional>
 #include <span>
 #include <vector>
 
-#include "vigil/core/dynamics/velocity_loop.hpp"
 #include "vigil/core/field/field.hpp"
 #include "vigil/swarm/activity.hpp"
 #include "vigil/swarm/fault.hpp"
 #include "vigil/swarm/flown_orders.hpp"
+#include "vigil/swarm/ordered_flight.hpp"
 
 namespace vigil::swarm {
 
@@ -65,13 +64,6 @@ class FaultMonitor {
     int repeats = 0;
     bool is_frozen = false;
   };
-  /// An order that it may still fly, because newer ones got lost, and how far that leads from the newer ones.
-  struct HeldOrder {
-    Vec2 u = Vec2::Zero();
-    Vec2 astray = Vec2::Zero();
-    double for_s = 0.0;
-  };
-  static constexpr std::size_t kHeldOrders = 8;
   /// What is above a threshold, or was a moment ago.
   struct Excess {
     bool is_raised = false;
@@ -91,14 +83,9 @@ class FaultMonitor {
     double doubted_since_s = 0.0;
     double off_m = 0.0;  ///< how far the doubted position is out of reach
     std::optional<DroneId> other;
-    dynamics::PlanarLoopState model;  ///< as it was observation_delay_s ago
+    OrderedFlight model;              ///< as it was observation_delay_s ago
     Vec2 model_place = Vec2::Zero();  ///< when `place` was true
     Vec2 residual = Vec2::Zero();
-    Vec2 ordered = Vec2::Zero();                ///< the order that the model flew last
-    std::array<HeldOrder, kHeldOrders> held{};  ///< a ring
-    std::size_t newest_held = 0;
-    double held_m = 0.0;  ///< what orders that got lost explain of the residual
-    double lost_m = 0.0;
     Vec2 disagreement = Vec2::Zero();
     Excess residual_excess;
     Excess disagreement_excess;
@@ -112,7 +99,6 @@ class FaultMonitor {
   };
 
   void fly_model(Watched& drone, std::size_t index, const FlownOrders& flown) const noexcept;
-  void hold_orders(Watched& drone, const Vec2& u) const noexcept;
   void rest_model(Watched& drone, const Vec2& velocity) const noexcept;
   void take(std::size_t index, const DroneObservation& observed, const Motion& expected, bool is_judged) noexcept;
   void take_new(std::size_t index, const DroneObservation& observed, double stamp_s, const Motion& expected,
@@ -130,7 +116,6 @@ class FaultMonitor {
   void compare(Watched& drone, const DroneObservation& observed, double stamp_s,
                const Vec2& model_place) const noexcept;
   void watch(Excess& excess, double measured, double threshold) const noexcept;
-  [[nodiscard]] double silent_after_s() const noexcept;
   void watch_motion(Watched& drone, double link_age_s, bool is_judged) const noexcept;
   void watch_mode(Watched& drone, const DroneObservation& observed, const DroneMemory& memory) const noexcept;
   void watch_border(Watched& drone, bool is_judged) const noexcept;
@@ -139,6 +124,9 @@ class FaultMonitor {
   [[nodiscard]] Vec2 model_place_at(const Watched& drone, double stamp_s) const noexcept;
 
   WatchSetup setup_;
+  OrderedFlight::Rules rules_;
+  std::size_t ago_ticks_ = 0;  ///< the order that is seen to act now was given so many ticks ago
+  double ago_part_ = 0.0;      ///< and this part of a tick
   double now_s_ = 0.0;
   std::vector<Watched> watched_;
 };

@@ -9,7 +9,7 @@ namespace vigil::recording {
 
 // A parameter that is not recorded would be another one when the flight is flown again, so this breaks when there is a
 // new one: show it below, add it to Mission.msg, then correct the size.
-static_assert(sizeof(void*) != 8 || sizeof(swarm::SwarmParameters) == 536);
+static_assert(sizeof(void*) != 8 || sizeof(swarm::SwarmParameters) == 544);
 
 /// Shows every value of the controller's parameters to `visit`, in the order of vigil_msgs/msg/Mission: writer and
 /// reader go by this one list. visit() takes numbers, flags and optional numbers, visit.count() and visit.index() whole
@@ -73,6 +73,7 @@ void visit_parameters(Visit& visit, Parameters& p) {
   visit(p.faults.bounds.disagreement_m);
   visit(p.faults.bounds.drift_m_s);
   visit(p.faults.bounds.outside_m);
+  visit(p.faults.bounds.silent_s);
   visit(p.faults.bounds.blind_s);
   visit.choice(p.first_intent, 9);
   visit.places(p.starts);

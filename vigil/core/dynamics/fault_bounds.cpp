@@ -12,8 +12,10 @@ constexpr double kLeastFrozenS = 0.25;
 constexpr double kLeastConfirmS = 0.1;
 constexpr double kSamplesFrozen = 5.0;   // one repetition may be a tracker's own; so many in a row are none
 constexpr double kSamplesConfirm = 2.0;  // a single stray measurement is screened, and no fault
-constexpr double kSlowestLeak = 0.1;     // 1/s
-constexpr double kFastestLeak = 4.0;     // 1/s
+constexpr double kPacketsSilent = 5.0;
+constexpr double kTypicalDisobedience = 0.5;  // of u_max
+constexpr double kSlowestLeak = 0.1;          // 1/s
+constexpr double kFastestLeak = 4.0;          // 1/s
 constexpr double kLeakStep = 1.25;
 constexpr double kDisagreementLeak = 1.0;  // 1/s: an estimator's own time constants are shorter
 
@@ -42,18 +44,29 @@ double residual_bound(const FaultProblem& problem, double leak) {
   return random + misfit + problem.u_max_m_s * problem.dt_s;
 }
 
-/// When the residual of a vehicle that flies nothing of what it is told, u_max, exceeds the bound:
-/// u_max (1 - exp(-leak t)) / leak = bound.
-double blind_s(const FaultProblem& problem, double leak) {
-  const double share = leak * residual_bound(problem, leak) / problem.u_max_m_s;
-  return share < 1.0 ? -std::log1p(-share) / leak : std::numeric_limits<double>::infinity();
+/// A vehicle flies nothing of an order that differs from what it does by `off`. Its residual fills up, and lost orders
+/// explain off held for held_s and fade then:
+///     off (1 - exp(-leak t)) / leak = bound + off held exp(-leak (t - held))
+double unnoticed_s(const FaultProblem& problem, double leak, double off) {
+  const double share = leak * residual_bound(problem, leak) / off;
+  const double explained = leak * problem.held_s * std::exp(leak * problem.held_s);
+  return share < 1.0 ? (std::log1p(explained) - std::log1p(-share)) / leak : std::numeric_limits<double>::infinity();
 }
 
+/// With a short memory less is forgiven and more is forgotten. The one in which a vehicle that disobeys by half of what
+/// it can is noticed soonest.
 double best_leak(const FaultProblem& problem) {
+  const double off = kTypicalDisobedience * problem.u_max_m_s;
   double best = kSlowestLeak;
   for (double leak = kSlowestLeak; leak <= kFastestLeak; leak *= kLeakStep)
-    if (blind_s(problem, leak) < blind_s(problem, best)) best = leak;
+    if (unnoticed_s(problem, leak, off) < unnoticed_s(problem, best, off)) best = leak;
   return best;
+}
+
+/// Longer than packets stay away while nothing is wrong, or than the vehicle waits before it hovers by itself.
+double silent_after_s(const FaultProblem& problem) {
+  const double few_s = kPacketsSilent * std::max(problem.period_s, problem.packet_period_s);
+  return std::max(few_s, std::min(problem.held_s, problem.hovers_after_s));
 }
 
 /// A velocity that is reported but for noise, against the way from one position to the next: between two measurements
@@ -92,7 +105,8 @@ FaultBounds fault_bounds(const FaultProblem& problem) {
   bounds.disagreement_m = disagreement_bound(problem);
   bounds.drift_m_s = kFaultSigmas * gust_speed(problem) + problem.misfit_share * problem.u_max_m_s;
   bounds.outside_m = kFaultSigmas * std::hypot(problem.noise_m, problem.bias_m) + problem.u_max_m_s * problem.dt_s;
-  bounds.blind_s = problem.held_s + blind_s(problem, bounds.residual_leak_per_s);
+  bounds.silent_s = silent_after_s(problem);
+  bounds.blind_s = unnoticed_s(problem, bounds.residual_leak_per_s, problem.u_max_m_s);
   return bounds;
 }
 

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <limits>
+
 #include "vigil/core/dynamics/velocity_loop.hpp"
 
 /// What a healthy vehicle and its tracker can look like at worst: everything beyond is a fault. The derivations:
@@ -25,7 +27,10 @@ struct FaultProblem {
   double push_time_s = 1.0;         ///< > 0, its correlation time
   double held_s = 0.0;              ///< an order may be flown for so long after there were newer ones
   double lost_share = 0.0;          ///< of the orders
-  double misfit_share = 0.0;        ///< of the model: the greatest recorded residual over its step
+  double packet_period_s = 0.02;    ///< > 0, between two packets of the link
+  double hovers_after_s =           ///< > 0, without orders: the vehicle's own failsafe
+      std::numeric_limits<double>::infinity();
+  double misfit_share = 0.0;  ///< of the model: the greatest recorded residual over its step
 };
 
 struct FaultBounds {
@@ -43,6 +48,7 @@ struct FaultBounds {
   double disagreement_m = 0.0;
   double drift_m_s = 0.0;  ///< so fast a drone that is told to hover gets away from where it is expected, at most
   double outside_m = 0.0;  ///< beyond the field's border
+  double silent_s = 0.0;   ///< who is not heard for longer may move by itself: it is not judged by its motion
   double blind_s = 0.0;    ///< how long a vehicle that flies nothing of an order for u_max goes unnoticed, at most
 };
 
