@@ -88,6 +88,7 @@ std::shared_ptr<runtime::LiveMission> make_flight(const runtime::Mission& missio
   if (options.fleet == "ros") {
     // What stands there stays down until somebody lets it take off; what is in the air is somebody else's.
     if (saved == nullptr) start.first_intent = swarm::Intent::kStayDown;
+    start.has_real_drones = true;
     auto fleet = crazyswarm_fleet(mission, options.ros_tf, [ros](const std::string& text) { ros->warn(text); });
     return std::make_shared<runtime::LiveMission>(mission, std::move(fleet), nullptr,
                                                   recorder_for(mission, options, start, epoch), start, epoch);

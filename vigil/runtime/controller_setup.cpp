@@ -48,6 +48,12 @@ swarm::SwarmParameters swarm_parameters(const Mission& mission, swarm::Intent fi
   return parameters;
 }
 
+swarm::SwarmParameters swarm_parameters(const Mission& mission, const FlightStart& start) {
+  swarm::SwarmParameters parameters = swarm_parameters(mission, start.first_intent);
+  if (start.has_real_drones) parameters.faults = real_fault_parameters(mission);
+  return parameters;
+}
+
 swarm::Intent first_intent(const Mission& mission) {
   return mission.simulation.start == StartState::kFlying ? swarm::Intent::kCover : swarm::Intent::kStayDown;
 }

@@ -5,6 +5,7 @@
 #include "vigil/core/ergodic/basis.hpp"
 #include "vigil/core/field/cell_cover.hpp"
 #include "vigil/runtime/flight_audit.hpp"
+#include "vigil/runtime/flight_start.hpp"
 #include "vigil/runtime/mission.hpp"
 #include "vigil/swarm/command.hpp"
 #include "vigil/swarm/parameters.hpp"
@@ -14,6 +15,10 @@ namespace vigil::runtime {
 /// The controller's parameters for a mission. `first_intent`: what every drone is to do before anyone commands
 /// anything.
 [[nodiscard]] swarm::SwarmParameters swarm_parameters(const Mission& mission, swarm::Intent first_intent);
+
+/// The same for a flight that begins so: real drones are watched by what their adapter lets pass, not by the world that
+/// the mission simulates.
+[[nodiscard]] swarm::SwarmParameters swarm_parameters(const Mission& mission, const FlightStart& start);
 
 /// What every drone of the simulated world is to do before anyone commands anything.
 [[nodiscard]] swarm::Intent first_intent(const Mission& mission);

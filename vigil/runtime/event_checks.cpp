@@ -37,8 +37,17 @@ class Course {
       case EventKind::kGiveBack:
       case EventKind::kLoseTracking:
       case EventKind::kLoseLink:
+      case EventKind::kFreezeTracking:
+      case EventKind::kShiftTracking:
+      case EventKind::kSkewVelocity:
+      case EventKind::kIgnoreOrders:
+      case EventKind::kDrift:
+      case EventKind::kLandByItself:
+      case EventKind::kPilotUnasked:
       case EventKind::kGoTo:
         return check_drone(event);
+      case EventKind::kSwapTracking:
+        return check_two_drones(event);
       case EventKind::kAddTarget:
         return add_target(event);
       case EventKind::kMoveTarget:
@@ -80,6 +89,16 @@ class Course {
     if (event.drone == "all" || drones_.contains(event.drone)) return;
     refuse("drone", "is no drone of this mission",
            fmt::format("must be all or an id, such as {}", mission_.drones.front().id), "check the id");
+  }
+
+  void check_two_drones(const EventEntry& event) const {
+    if (event.drone == "all")
+      refuse("drone", "is every drone", "must be the id of one drone", "give the two drones that are exchanged");
+    check_drone(event);
+    if (event.other == event.drone || !drones_.contains(event.other))
+      refuse("other", "is no other drone of this mission",
+             fmt::format("must be the id of a drone that is not {}", event.drone),
+             "give the two drones that are exchanged");
   }
 
   std::size_t& targets_of(const EventEntry& event) {

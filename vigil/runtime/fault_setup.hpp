@@ -11,4 +11,9 @@ namespace vigil::runtime {
 /// What drones are held against.
 [[nodiscard]] swarm::FaultParameters fault_parameters(const Mission& mission);
 
+/// What real drones are held against. A mission says nothing of their tracker, their radio and, without safety.vehicle,
+/// of themselves: what the adapter to Crazyswarm lets pass is taken for healthy, and a Crazyflie's gain and lag as
+/// well.
+[[nodiscard]] swarm::FaultParameters real_fault_parameters(const Mission& mission);
+
 }  // namespace vigil::runtime

@@ -40,6 +40,30 @@ std::optional<CommandKind> command_of(EventKind kind) {
   }
 }
 
+/// What an event lets befall a drone.
+std::optional<MishapKind> mishap_of(EventKind kind) {
+  switch (kind) {
+    case EventKind::kFreezeTracking:
+      return MishapKind::kFreezeTracking;
+    case EventKind::kShiftTracking:
+      return MishapKind::kShiftTracking;
+    case EventKind::kSwapTracking:
+      return MishapKind::kSwapTracking;
+    case EventKind::kSkewVelocity:
+      return MishapKind::kSkewVelocity;
+    case EventKind::kIgnoreOrders:
+      return MishapKind::kIgnoreOrders;
+    case EventKind::kDrift:
+      return MishapKind::kDrift;
+    case EventKind::kLandByItself:
+      return MishapKind::kLandByItself;
+    case EventKind::kPilotUnasked:
+      return MishapKind::kTakenByPilot;
+    default:
+      return std::nullopt;
+  }
+}
+
 template <typename Entries>
 auto find_named(Entries& entries, const std::string& name) {
   return std::find_if(entries.begin(), entries.end(), [&](const auto& entry) { return entry.name == name; });
@@ -82,7 +106,8 @@ bool edits_targets(EventKind kind) {
 }
 
 bool is_of_the_world(EventKind kind) {
-  return kind == EventKind::kFail || kind == EventKind::kLoseTracking || kind == EventKind::kLoseLink;
+  return kind == EventKind::kFail || kind == EventKind::kLoseTracking || kind == EventKind::kLoseLink ||
+         mishap_of(kind).has_value();
 }
 
 void apply_edit(TargetsSection& targets, const EventEntry& event) {
@@ -132,6 +157,16 @@ void FlightScript::play_event(const EventEntry& event, DueEvents& due) {
   }
 }
 
+Mishap FlightScript::mishap_from(const EventEntry& event, MishapKind kind) const {
+  const auto& drones = mission_.drones;
+  const auto other = std::ranges::find(drones, event.other, &DroneEntry::id);
+  const Vec2 value_W = kind == MishapKind::kShiftTracking ? event.shift_m : event.velocity_m_s;
+  return {.kind = kind,
+          .for_s = event.for_s,
+          .value = world_frame(mission_).vector_to_field(value_W),
+          .other = DroneId(static_cast<std::size_t>(other == drones.end() ? 0 : other - drones.begin()))};
+}
+
 void FlightScript::play_for_drones(const EventEntry& event, DueEvents& due) {
   const Vec2 velocity = world_frame(mission_).vector_to_field(event.velocity_m_s);
   const Vec2 place = world_frame(mission_).point_to_field(event.point_m);
@@ -140,6 +175,7 @@ void FlightScript::play_for_drones(const EventEntry& event, DueEvents& due) {
     const DroneId drone(index);
     if (const auto command = command_of(event.what))
       due.commands.push_back({.kind = *command, .drone = drone, .place = place, .target = {}});
+    if (const auto mishap = mishap_of(event.what)) fleet_.befall(drone, mishap_from(event, *mishap));
     switch (event.what) {
       case EventKind::kFail:
         fleet_.fail(drone);

@@ -45,6 +45,8 @@ class FlightScript {
   void play_event(const EventEntry& event, DueEvents& due);
   void play_for_drones(const EventEntry& event, DueEvents& due);
 
+  [[nodiscard]] Mishap mishap_from(const EventEntry& event, MishapKind kind) const;
+
   const Mission& mission_;
   VirtualFleet& fleet_;
   std::size_t next_ = 0;

@@ -20,9 +20,14 @@ class NotingFleet final : public VirtualFleet {
   void give_back(swarm::DroneId) noexcept override { ++given_back; }
   void hide(swarm::DroneId, double for_s) noexcept override { hidden_s = for_s; }
   void cut_link(swarm::DroneId, double for_s) noexcept override { cut_s = for_s; }
-  void befall(swarm::DroneId, const Mishap&) noexcept override {}
+  void befall(swarm::DroneId drone, const Mishap& mishap) noexcept override {
+    befallen.push_back(drone.index());
+    last_mishap = mishap;
+  }
 
   std::vector<std::size_t> failed;
+  std::vector<std::size_t> befallen;
+  Mishap last_mishap;
   Vec2 taken_velocity = Vec2::Zero();
   int given_back = 0;
   double hidden_s = 0.0;
@@ -97,6 +102,28 @@ TEST_F(FlightScriptTest, What_the_world_does_reaches_the_fleet_and_not_the_contr
   EXPECT_EQ(fleet.failed, std::vector<std::size_t>{1});
   EXPECT_EQ(fleet.hidden_s, 3.0);
   EXPECT_EQ(fleet.cut_s, 4.0);
+}
+
+TEST_F(FlightScriptTest, A_mishap_befalls_its_drone_in_the_field_s_frame_and_nobody_is_told) {
+  mission.field.yaw_rad = 1.5707963267948966;  // the field's x axis is the world's y axis
+  EventEntry shift = event(1.0, EventKind::kShiftTracking, "cf2");
+  shift.shift_m = Vec2(0.0, 0.4);
+  shift.for_s = 5.0;
+  EXPECT_TRUE(play({shift}).commands.empty());
+  EXPECT_EQ(fleet.befallen, std::vector<std::size_t>{1});
+  EXPECT_EQ(fleet.last_mishap.kind, MishapKind::kShiftTracking);
+  EXPECT_LT((fleet.last_mishap.value - Vec2(0.4, 0.0)).norm(), 1e-12);
+  EXPECT_EQ(fleet.last_mishap.for_s, 5.0);
+}
+
+TEST_F(FlightScriptTest, An_exchange_names_both_drones) {
+  EventEntry exchange = event(1.0, EventKind::kSwapTracking, "cf1");
+  exchange.other = "cf2";
+  exchange.for_s = 5.0;
+  static_cast<void>(play({exchange}));
+  EXPECT_EQ(fleet.befallen, std::vector<std::size_t>{0});
+  EXPECT_EQ(fleet.last_mishap.kind, MishapKind::kSwapTracking);
+  EXPECT_EQ(fleet.last_mishap.other.index(), 1U);
 }
 
 TEST_F(FlightScriptTest, A_pilot_takes_the_vehicle_and_the_controller_is_told) {

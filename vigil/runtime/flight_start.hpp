@@ -14,6 +14,7 @@ struct FlightStart {
   std::optional<swarm::SwarmPast> past;  ///< of an earlier run of the program
   /// The orders that stood when that ended, one per drone; empty: none. See StandingOrders.
   std::vector<swarm::Intent> standing{};
+  bool has_real_drones = false;  ///< of which a mission says less than of those that it simulates
 };
 
 }  // namespace vigil::runtime

@@ -8,7 +8,6 @@
 
 #include "vigil/runtime/goal_throughput.hpp"
 #include "vigil/runtime/mission_description.hpp"
-#include "vigil/swarm/names.hpp"
 
 namespace vigil::runtime {
 namespace {
@@ -28,21 +27,6 @@ nlohmann::ordered_json finite_or_null(double value) {
   return std::isfinite(value) ? nlohmann::ordered_json(value) : nlohmann::ordered_json(nullptr);
 }
 
-/// Whether a drone in it is lost to coverage though nobody wished it.
-bool is_of_a_fault(swarm::Activity activity) {
-  switch (activity) {
-    case swarm::Activity::kTrackingLost:
-    case swarm::Activity::kLinkLost:
-    case swarm::Activity::kVehicleFailed:
-    case swarm::Activity::kBatteryLow:
-    case swarm::Activity::kNotFollowing:
-    case swarm::Activity::kOutside:
-      return true;
-    default:
-      return false;
-  }
-}
-
 double quantile(std::vector<float> values, double share) {
   if (values.empty()) return 0.0;
   const auto at = static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size() - 1));
@@ -53,7 +37,8 @@ double quantile(std::vector<float> values, double share) {
 }  // namespace
 
 SummaryBuilder::SummaryBuilder(const Mission& mission)
-    : ask_percent_at_s_(times_to_ask(mission)),
+    : faults_(mission),
+      ask_percent_at_s_(times_to_ask(mission)),
       asked_duration_s_(mission.simulation.duration_s),
       dt_s_(1.0 / mission.control.rate_hz) {
   summary_.mission = mission.name;
@@ -66,6 +51,7 @@ SummaryBuilder::SummaryBuilder(const Mission& mission)
 
 void SummaryBuilder::begin_at(double from_s, std::optional<double> first_metric) {
   from_s_ = from_s;
+  faults_.begin_at(from_s);
   summary_.first_metric = first_metric;
   while (next_ask_ < ask_percent_at_s_.size() && ask_percent_at_s_[next_ask_] < from_s - 0.5 * dt_s_) ++next_ask_;
 }
@@ -74,7 +60,7 @@ void SummaryBuilder::add(const swarm::Snapshot& snapshot, double tick_us) {
   ++summary_.ticks;
   tick_us_.push_back(static_cast<float>(tick_us));
   if (snapshot.fallback) ++summary_.fallback_ticks;
-  count_faults(snapshot);
+  faults_.add(snapshot);
   if (summary_.active.empty() || summary_.active.back().second != snapshot.active)
     summary_.active.emplace_back(snapshot.time_s, snapshot.active);
   if (!snapshot.has_metric) return;
@@ -86,29 +72,14 @@ void SummaryBuilder::add(const swarm::Snapshot& snapshot, double tick_us) {
     summary_.percent_at.emplace_back(ask_percent_at_s_[next_ask_], snapshot.metric_percent);
 }
 
-/// Each time a drone is found to be lost, by the monitor's word where it has one.
-void SummaryBuilder::count_faults(const swarm::Snapshot& snapshot) {
-  for (const swarm::Event& event : snapshot.events) {
-    const bool is_lost = event.kind == swarm::EventKind::kActivityChanged && is_of_a_fault(event.after);
-    const bool is_by_itself = event.fault == swarm::Fault::kOwnMode && event.after != swarm::Activity::kGrounded;
-    const bool is_found = event.kind == swarm::EventKind::kFaultNoticed ||
-                          (event.kind == swarm::EventKind::kActivityChanged && is_by_itself) ||
-                          (is_lost && event.fault != swarm::Fault::kNone);
-    if (!is_found && !is_lost) continue;
-    const std::string_view word = is_found ? name_of(event.fault) : name_of(event.after);
-    const auto known = std::ranges::find(summary_.faults, word, &std::pair<std::string, std::uint64_t>::first);
-    if (known == summary_.faults.end())
-      summary_.faults.emplace_back(word, 1);
-    else
-      ++known->second;
-  }
-}
-
 FlightSummary SummaryBuilder::finish(const AuditTotals& audit,
                                      std::vector<std::pair<std::string, double>> worst_revisit_s,
                                      const std::optional<GoalTally>& goals) const {
   FlightSummary summary = summary_;
   summary.audit = audit;
+  summary.faults = faults_.alarms();
+  summary.detections = faults_.detections();
+  summary.false_alarms = faults_.false_alarms();
   summary.goals = goals;
   summary.worst_revisit_s = std::move(worst_revisit_s);
   summary.duration_s = static_cast<double>(summary.ticks) * dt_s_;
@@ -135,6 +106,15 @@ void add_goals(nlohmann::ordered_json& json, const FlightSummary& summary) {
       goals.all_there_s ? nlohmann::ordered_json(*goals.all_there_s) : nlohmann::ordered_json(nullptr);
 }
 
+nlohmann::ordered_json to_json(const Detection& found) {
+  using Json = nlohmann::ordered_json;
+  return {{"at_s", found.at_s},
+          {"befell", found.befell},
+          {"drone", found.drone},
+          {"noticed_as", found.noticed_s ? Json(found.noticed_as) : Json(nullptr)},
+          {"noticed_s", found.noticed_s ? Json(*found.noticed_s) : Json(nullptr)}};
+}
+
 }  // namespace
 
 nlohmann::ordered_json to_json(const FlightSummary& summary) {
@@ -145,6 +125,8 @@ nlohmann::ordered_json to_json(const FlightSummary& summary) {
   for (const auto& [area, worst_s] : summary.worst_revisit_s) revisit[area] = worst_s;
   Json faults = Json::object();
   for (const auto& [word, count] : summary.faults) faults[word] = count;
+  Json detections = Json::array();
+  for (const Detection& found : summary.detections) detections.push_back(to_json(found));
   Json active = Json::array();
   for (const auto& [at_s, count] : summary.active) active.push_back({at_s, count});
   const Json metric{{"first", summary.first_metric ? Json(*summary.first_metric) : Json(nullptr)},
@@ -171,6 +153,8 @@ nlohmann::ordered_json to_json(const FlightSummary& summary) {
             {"fallback_ticks", summary.fallback_ticks},
             {"worst_revisit_s", revisit},
             {"faults", faults},
+            {"detections", detections},
+            {"false_alarms", summary.false_alarms},
             {"active", active},
             {"tick_us", {{"p50", summary.tick_us_p50}, {"p99", summary.tick_us_p99}, {"max", summary.tick_us_max}}},
             {"accounting", summary.accounting},

@@ -8,6 +8,7 @@
 
 #include <nlohmann/json_fwd.hpp>
 
+#include "vigil/runtime/fault_tally.hpp"
 #include "vigil/runtime/flight_audit.hpp"
 #include "vigil/runtime/goal_script.hpp"
 #include "vigil/runtime/mission.hpp"
@@ -32,7 +33,9 @@ struct FlightSummary {
   std::optional<GoalTally> goals;                               ///< where the mission has goals
   std::vector<std::pair<std::string, double>> worst_revisit_s;  ///< per cluster and area
   std::vector<std::pair<std::string, std::uint64_t>> faults;    ///< what was noticed, by its word, and how often
-  std::vector<std::pair<double, std::size_t>> active;           ///< each change of |I_a(t)|
+  std::vector<Detection> detections;  ///< what befell drones by the mission's events, and when it was noticed
+  std::uint64_t false_alarms = 0;     ///< FaultTally::false_alarms()
+  std::vector<std::pair<double, std::size_t>> active;  ///< each change of |I_a(t)|
   double tick_us_p50 = 0.0;  ///< wall-clock, the only figures that differ between two runs of one seed
   double tick_us_p99 = 0.0;
   double tick_us_max = 0.0;
@@ -58,9 +61,8 @@ class SummaryBuilder {
                                      const std::optional<GoalTally>& goals = std::nullopt) const;
 
  private:
-  void count_faults(const swarm::Snapshot& snapshot);
-
   FlightSummary summary_;
+  FaultTally faults_;
   std::vector<double> ask_percent_at_s_;  ///< ascending; those before next_ask_ are answered
   std::size_t next_ask_ = 0;
   std::vector<float> tick_us_;

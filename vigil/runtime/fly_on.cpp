@@ -150,7 +150,7 @@ class FlyingOn {
   }
 
   [[nodiscard]] swarm::SwarmState state_for(const Mission& mission, const FlightStart& start) const {
-    swarm::SwarmState state(swarm_parameters(mission, start.first_intent));
+    swarm::SwarmState state(swarm_parameters(mission, start));
     const swarm::SwarmParameters& before = flight_.recording().head().parameters;
     const bool fits = state.parameters().drones == before.drones && is_same(state.parameters().dt_s, before.dt_s) &&
                       mission.field == mission_.field && state.read_past(*start.past);

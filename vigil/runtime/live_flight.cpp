@@ -24,7 +24,7 @@ LiveFlight::LiveFlight(const Mission& mission, Fleet& fleet, VirtualFleet* world
     : fleet_(fleet),
       world_(world),
       recorder_(recorder),
-      state_(swarm_parameters(mission, start.first_intent)),
+      state_(swarm_parameters(mission, start)),
       standing_(start.standing),
       observations_(mission.drones.size()),
       orders_(mission.drones.size()) {

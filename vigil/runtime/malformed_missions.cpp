@@ -160,6 +160,12 @@ void add_broken_structures(std::vector<MalformedMission>& table) {
   add("an event without its drone", but("do: land, drone: b", "do: land"), "simulation.events[0].drone", "is missing");
   add("an event with another's key", but("do: land, drone: b", "do: land, drone: b, weight: 2"),
       "simulation.events[0].weight", "must be one of: at_s, do, drone");
+  add("a shift of nothing", but("do: land, drone: b", "do: shift_tracking, drone: b, for_s: 2"),
+      "simulation.events[0].shift_m", "is missing");
+  add("a drift that never ends", but("do: land, drone: b", "do: drift, drone: b, velocity_m_s: [1, 0], for_s: .inf"),
+      "simulation.events[0].for_s", "must be in (0, 1000000] s");
+  add("an unasked landing for a while", but("do: land, drone: b", "do: land_by_itself, drone: b, for_s: 3"),
+      "simulation.events[0].for_s", "must be one of: at_s, do, drone");
   add("an event before the start", but("at_s: 10", "at_s: -10"), "simulation.events[0].at_s",
       "must be in [0, 1000000] s");
   add("a battery of 20 percent in percent", but("battery_reserve: 0.2", "battery_reserve: 20"),
@@ -284,6 +290,10 @@ void add_contradictions(std::vector<MalformedMission>& table) {
       "drone_grid.spacing_m", "must be at least 0.200449 m");
   add("an event for an unknown drone", but("drone: b", "drone: c"), "simulation.events[0].drone",
       "is no drone of this mission");
+  add("a drone exchanged with itself", but("do: land, drone: b", "do: swap_tracking, drone: b, other: b, for_s: 2"),
+      "simulation.events[0].other", "must be the id of a drone that is not b");
+  add("all drones exchanged with one", but("do: land, drone: b", "do: swap_tracking, drone: all, other: b, for_s: 2"),
+      "simulation.events[0].drone", "must be the id of one drone");
   add("an event after the end", but("at_s: 30", "at_s: 61"), "simulation.events[2].at_s", "must be in [0, 60] s");
   add("events out of order", but("at_s: 20", "at_s: 5"), "simulation.events[1].at_s", "must be in the order of time");
   add("an event for an unknown cluster", but("move_target, cluster: west", "move_target, cluster: south"),

@@ -200,23 +200,31 @@ struct BatterySection {
 };
 
 enum class EventKind : std::uint8_t {
-  kTakeOff,        ///< operator: take off
-  kLand,           ///< operator: land where it is
-  kHold,           ///< operator: hover, out of coverage
-  kGoTo,           ///< operator: fly to point_m and wait there, out of coverage
-  kResume,         ///< operator: back to coverage after hold, go_to or mark_failed
-  kMarkFailed,     ///< operator: declare it failed
-  kEmergencyStop,  ///< safety pilot: motors off
-  kFail,           ///< the vehicle fails in the air: ignores commands, hovers where it stops
-  kOverride,       ///< a pilot takes it over and flies velocity_m_s
-  kGiveBack,       ///< the pilot gives it back
-  kLoseTracking,   ///< the tracker does not see it for for_s
-  kLoseLink,       ///< nothing passes between it and the ground for for_s
-  kAddTarget,      ///< cluster (made where new), point_m
-  kMoveTarget,     ///< cluster, target (counted from 1), point_m
-  kRemoveTarget,   ///< cluster, target (counted from 1); the last one removes the cluster
-  kSetWeight,      ///< cluster or area, weight
-  kStartAfresh     ///< coverage statistics are forgotten
+  kTakeOff,         ///< operator: take off
+  kLand,            ///< operator: land where it is
+  kHold,            ///< operator: hover, out of coverage
+  kGoTo,            ///< operator: fly to point_m and wait there, out of coverage
+  kResume,          ///< operator: back to coverage after hold, go_to or mark_failed
+  kMarkFailed,      ///< operator: declare it failed
+  kEmergencyStop,   ///< safety pilot: motors off
+  kFail,            ///< the vehicle fails in the air: ignores commands, hovers where it stops
+  kOverride,        ///< a pilot takes it over and flies velocity_m_s
+  kGiveBack,        ///< the pilot gives it back
+  kLoseTracking,    ///< the tracker does not see it for for_s
+  kLoseLink,        ///< nothing passes between it and the ground for for_s
+  kFreezeTracking,  ///< the tracker goes on telling its last place for for_s
+  kShiftTracking,   ///< the tracker sees it shift_m from where it is for for_s
+  kSwapTracking,    ///< the tracker takes it and `other` for each other for for_s
+  kSkewVelocity,    ///< its velocity is reported with velocity_m_s added for for_s
+  kIgnoreOrders,    ///< the vehicle hears its orders, and flies on as it flew for for_s
+  kDrift,           ///< the vehicle flies velocity_m_s beside its orders for for_s
+  kLandByItself,    ///< the vehicle lands though nobody asked
+  kPilotUnasked,    ///< a pilot flies it at velocity_m_s though nobody said so
+  kAddTarget,       ///< cluster (made where new), point_m
+  kMoveTarget,      ///< cluster, target (counted from 1), point_m
+  kRemoveTarget,    ///< cluster, target (counted from 1); the last one removes the cluster
+  kSetWeight,       ///< cluster or area, weight
+  kStartAfresh      ///< coverage statistics are forgotten
 };
 
 struct EventEntry {
@@ -229,6 +237,8 @@ struct EventEntry {
   Vec2 velocity_m_s = Vec2::Zero();  ///< world frame
   double weight = 0.0;
   double for_s = 0.0;
+  std::string other;            ///< the id of another drone
+  Vec2 shift_m = Vec2::Zero();  ///< world frame
   friend bool operator==(const EventEntry&, const EventEntry&) = default;
 };
 

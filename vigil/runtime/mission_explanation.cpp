@@ -195,10 +195,20 @@ std::string event_in_words(const EventEntry& event) {
   if (event.target > 0) text += fmt::format(" target {}", event.target);
   switch (event.what) {
     case EventKind::kOverride:
+    case EventKind::kPilotUnasked:
       return text + " at " + at(event.velocity_m_s) + " m/s";
     case EventKind::kLoseTracking:
     case EventKind::kLoseLink:
+    case EventKind::kFreezeTracking:
+    case EventKind::kIgnoreOrders:
       return text + " for " + in_words(event.for_s, "s");
+    case EventKind::kShiftTracking:
+      return text + " by " + at(event.shift_m) + " m for " + in_words(event.for_s, "s");
+    case EventKind::kSwapTracking:
+      return text + " and " + event.other + " for " + in_words(event.for_s, "s");
+    case EventKind::kSkewVelocity:
+    case EventKind::kDrift:
+      return text + " by " + at(event.velocity_m_s) + " m/s for " + in_words(event.for_s, "s");
     case EventKind::kAddTarget:
     case EventKind::kMoveTarget:
       return text + " to " + at(event.point_m) + " m";

@@ -201,18 +201,21 @@ class Maker {
   EventEntry make_event(double at_s) {
     EventEntry event;
     event.at_s = at_s;
-    event.what = static_cast<EventKind>(dice_.below(17));
+    event.what = static_cast<EventKind>(dice_.below(25));
+    if (event.what == EventKind::kSwapTracking) event.what = EventKind::kFreezeTracking;  // takes two drones
     const bool needs_cluster = event.what == EventKind::kMoveTarget || event.what == EventKind::kRemoveTarget ||
                                event.what == EventKind::kSetWeight;
     if (needs_cluster && targets_added_ == 0) event.what = EventKind::kAddTarget;
     if (event.what == EventKind::kStartAfresh) return event;
     if (event.what < EventKind::kAddTarget) {
       event.drone = dice_.coin() ? "all" : "d1";
-      if (event.what == EventKind::kOverride)
+      if (event.what == EventKind::kOverride || event.what == EventKind::kPilotUnasked ||
+          event.what == EventKind::kSkewVelocity || event.what == EventKind::kDrift)
         event.velocity_m_s = Vec2(dice_.between(-1.0, 1.0), dice_.between(-1.0, 1.0));
       if (event.what == EventKind::kGoTo) event.point_m = place();
-      if (event.what == EventKind::kLoseTracking || event.what == EventKind::kLoseLink)
-        event.for_s = dice_.between(0.1, 5.0);
+      if (event.what == EventKind::kShiftTracking) event.shift_m = Vec2(dice_.between(-1.0, 1.0), 0.5);
+      const bool lasts = event.what >= EventKind::kLoseTracking && event.what <= EventKind::kDrift;
+      if (lasts) event.for_s = dice_.between(0.1, 5.0);
       return event;
     }
     event.cluster = "from above: [new]";

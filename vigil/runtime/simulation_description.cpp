@@ -24,7 +24,7 @@ constexpr std::array<Choice, 2> kStartState{{
     {"grounded", "every drone stands at its start until a take_off event"},
 }};
 
-constexpr std::array<Choice, 17> kEventKind{{
+constexpr std::array<Choice, 25> kEventKind{{
     {"take_off", "the operator lets a drone take off"},
     {"land", "the operator lets a drone land where it is"},
     {"hold", "the operator lets a drone hover, out of coverage"},
@@ -37,6 +37,14 @@ constexpr std::array<Choice, 17> kEventKind{{
     {"give_back", "the pilot gives the drone back"},
     {"lose_tracking", "the tracker does not see a drone for for_s"},
     {"lose_link", "nothing passes between a drone and the ground for for_s"},
+    {"freeze_tracking", "the tracker goes on telling a drone's last place, as if it were new, for for_s"},
+    {"shift_tracking", "the tracker sees a drone shift_m from where it is for for_s"},
+    {"swap_tracking", "the tracker takes a drone and another for each other for for_s"},
+    {"skew_velocity", "a drone's velocity is reported with velocity_m_s added for for_s"},
+    {"ignore_orders", "a vehicle hears its orders, and flies on as it flew for for_s"},
+    {"drift", "a vehicle flies velocity_m_s beside what it is told for for_s"},
+    {"land_by_itself", "a vehicle lands though nobody asked it to"},
+    {"pilot_unasked", "a pilot takes a drone though nobody said so, and flies it at velocity_m_s"},
     {"add_target", "a target point joins a cluster, which is made where it is new"},
     {"move_target", "a target point of a cluster moves"},
     {"remove_target", "a target point leaves its cluster; the last one removes the cluster"},
@@ -76,6 +84,33 @@ void describe_point(DescriptionVisitor& visitor, EventEntry& event) {
                 kWorldCoordinate, event.point_m);
 }
 
+void describe_time(DescriptionVisitor& visitor, EventEntry& event) {
+  visitor.number({.name = "for_s", .meaning = "the time for which it lasts", .unit = "s", .is_required = true},
+                 {0.0, 1e6, false}, event.for_s);
+}
+
+void describe_velocity(DescriptionVisitor& visitor, EventEntry& event, const char* meaning) {
+  visitor.point({.name = "velocity_m_s", .meaning = meaning, .unit = "m/s", .is_required = true}, {-100.0, 100.0},
+                event.velocity_m_s);
+}
+
+/// What happens to a drone or its tracker for a while.
+void describe_mishap(DescriptionVisitor& visitor, EventEntry& event) {
+  describe_drone(visitor, event);
+  if (event.what == EventKind::kShiftTracking)
+    visitor.point(
+        {.name = "shift_m", .meaning = "how far off it is seen, world frame", .unit = "m", .is_required = true},
+        {-1e5, 1e5}, event.shift_m);
+  if (event.what == EventKind::kSwapTracking)
+    visitor.text({.name = "other", .meaning = "the id of the other drone", .is_required = true}, TextRule::kIdentifier,
+                 event.other);
+  if (event.what == EventKind::kSkewVelocity)
+    describe_velocity(visitor, event, "what is added to the velocity that is told, world frame");
+  if (event.what == EventKind::kDrift)
+    describe_velocity(visitor, event, "what it flies beside its orders, world frame");
+  if (event.what != EventKind::kLandByItself) describe_time(visitor, event);
+}
+
 /// The keys that an event of its kind needs; no others are allowed.
 void describe_particulars(DescriptionVisitor& visitor, EventEntry& event) {
   switch (event.what) {
@@ -95,17 +130,20 @@ void describe_particulars(DescriptionVisitor& visitor, EventEntry& event) {
                     kWorldCoordinate, event.point_m);
       return;
     case EventKind::kOverride:
+    case EventKind::kPilotUnasked:
       describe_drone(visitor, event);
-      visitor.point(
-          {.name = "velocity_m_s", .meaning = "what the pilot flies, world frame", .unit = "m/s", .is_required = true},
-          {-100.0, 100.0}, event.velocity_m_s);
+      describe_velocity(visitor, event, "what the pilot flies, world frame");
       return;
     case EventKind::kLoseTracking:
     case EventKind::kLoseLink:
-      describe_drone(visitor, event);
-      visitor.number(
-          {.name = "for_s", .meaning = "the time for which it is not seen or heard", .unit = "s", .is_required = true},
-          {0.0, 1e6, false}, event.for_s);
+    case EventKind::kFreezeTracking:
+    case EventKind::kShiftTracking:
+    case EventKind::kSwapTracking:
+    case EventKind::kSkewVelocity:
+    case EventKind::kIgnoreOrders:
+    case EventKind::kDrift:
+    case EventKind::kLandByItself:
+      describe_mishap(visitor, event);
       return;
     case EventKind::kAddTarget:
       describe_cluster(visitor, event);

@@ -51,7 +51,7 @@ void BagRecorder::leave_nothing() {
 
 void BagRecorder::begin_in_folder(const runtime::Mission& mission, const runtime::FlightStart& start) {
   write_text(folder_ / kMissionFile, head_.mission_text);
-  head_.parameters = runtime::swarm_parameters(mission, start.first_intent);
+  head_.parameters = runtime::swarm_parameters(mission, start);
   head_.start = start;
   if (start.past) first_time_s_ = static_cast<double>(start.past->ticks) * head_.parameters.dt_s;
   last_time_s_ = first_time_s_;

@@ -161,6 +161,7 @@ std::string page(const FlightData& data, const CoverageMap& map, const SummaryFa
   text += accounting_section(data, map);
   text += "<div class=\"columns\">\n" + attention_section(map) + deadline_section(facts) +
           table_section("safety", "Safety", facts.safety) + table_section("coverage", "Coverage", facts.coverage) +
+          (facts.faults.empty() ? "" : table_section("faults", "Faults", facts.faults)) +
           table_section("timing", "Timing", facts.timing) + "</div>\n";
   text += events_section(data);
   text +=

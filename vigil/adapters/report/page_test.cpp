@@ -68,6 +68,20 @@ TEST(Page, Fall_backs_are_judged_in_ticks_of_how_many) {
   EXPECT_NE(report.write().find("does not hold in 7 of 6000 ticks"), std::string::npos);
 }
 
+TEST(Page, What_befell_drones_stands_beside_when_it_was_noticed) {
+  Report report;
+  EXPECT_EQ(report.write().find("id=\"faults\""), std::string::npos);
+  report.summary = R"({"detections": [
+    {"at_s": 20, "befell": "land_by_itself", "drone": "cf1", "noticed_as": "own_mode", "noticed_s": 0.02},
+    {"at_s": 30, "befell": "ignore_orders", "drone": "<b>", "noticed_as": null, "noticed_s": null}, 7],
+    "faults": {"own_mode": 1}, "false_alarms": 2})";
+  const std::string page = report.write();
+  EXPECT_NE(page.find("<td>cf1: land by itself at 20 s</td><td>noticed after 0.02 s as own mode</td>"),
+            std::string::npos);
+  EXPECT_NE(page.find("<td>&lt;b&gt;: ignore orders at 30 s</td><td>not noticed</td>"), std::string::npos);
+  EXPECT_NE(page.find("<td>alarms about drones that nothing befell</td><td>2</td>"), std::string::npos);
+}
+
 TEST(Page, Captions_speak_of_inactive_drones_only_where_there_are_such) {
   Report report;
   for (const char* words : {"Grey:", "crosses:", "Pale:"})

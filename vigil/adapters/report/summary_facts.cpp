@@ -162,6 +162,41 @@ std::vector<Finding> deadlines_of(const FlightData& data, const Summary& summary
   return findings;
 }
 
+std::string text_at(const Json& object, const char* key) {
+  const auto found = object.find(key);
+  return found != object.end() && found->is_string() ? found->get<std::string>() : std::string();
+}
+
+/// "cf1: drift at 20 s", "noticed after 0.4 s as not following".
+std::vector<std::string> detection_row(const Json& found) {
+  const auto seconds = [&](const char* key) { return large(found.at(key).get<double>(), 4); };
+  const auto is_number = [&](const char* key) { return found.contains(key) && found.at(key).is_number(); };
+  const auto in_words = [](std::string word) {
+    std::ranges::replace(word, '_', ' ');
+    return word;
+  };
+  const std::string when = is_number("at_s") ? fmt::format(" at {} s", seconds("at_s")) : "";
+  const std::string what = fmt::format("{}: {}{}", text_at(found, "drone"), in_words(text_at(found, "befell")), when);
+  if (!is_number("noticed_s")) return {what, "not noticed"};
+  return {what, fmt::format("noticed after {} s as {}", seconds("noticed_s"), in_words(text_at(found, "noticed_as")))};
+}
+
+Rows fault_rows(const Summary& summary) {
+  Rows rows;
+  const Json* detections = summary.at("/detections");
+  if (detections != nullptr && detections->is_array())
+    for (const Json& found : *detections)
+      if (found.is_object()) rows.push_back(detection_row(found));
+  if (const Json* faults = summary.at("/faults"); faults != nullptr && faults->is_object())
+    for (const auto& [word, count] : faults->items())
+      if (count.is_number()) rows.push_back({"alarms: " + word, large(count.get<double>(), 3)});
+  const double false_alarms = summary.number("/false_alarms").value_or(0.0);
+  if (rows.empty() && false_alarms == 0.0) return {};
+  rows.push_back({"alarms about drones that nothing befell", large(false_alarms, 3)});
+  rows.insert(rows.begin(), {"", "value"});
+  return rows;
+}
+
 Rows timing_rows(const FlightData& data, const Summary& summary) {
   Rows rows{{"", "value"},
             {"recorded", fmt::format("{} s in {} ticks", large(data.end_s() - data.time_s(0), 4), data.ticks())},
@@ -218,9 +253,13 @@ std::vector<std::string> warnings_of(const FlightData& data, const Summary& summ
 
 SummaryFacts summary_facts(const FlightData& data, const std::optional<std::string>& summary_json) {
   const Summary summary(summary_json);
-  return {tiles_of(data, summary),      safety_rows(data, summary),
-          coverage_rows(data, summary), timing_rows(data, summary),
-          deadlines_of(data, summary),  warnings_of(data, summary, summary_json.has_value())};
+  return {tiles_of(data, summary),
+          safety_rows(data, summary),
+          coverage_rows(data, summary),
+          fault_rows(summary),
+          timing_rows(data, summary),
+          deadlines_of(data, summary),
+          warnings_of(data, summary, summary_json.has_value())};
 }
 
 }  // namespace vigil::report

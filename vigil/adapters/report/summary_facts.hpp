@@ -20,6 +20,7 @@ struct SummaryFacts {
   std::vector<Tile> tiles;
   std::vector<std::vector<std::string>> safety;    ///< rows of a table: what, value, asked for, verdict
   std::vector<std::vector<std::string>> coverage;  ///< rows: what, value
+  std::vector<std::vector<std::string>> faults;    ///< rows: what, value; none where nothing befell or was noticed
   std::vector<std::vector<std::string>> timing;    ///< rows: what, value
   std::vector<Finding> deadlines;                  ///< one for each cluster or area that has revisit_s
   std::vector<std::string> warnings;               ///< a flight cut short, a summary that cannot be read, ...
