@@ -11,10 +11,12 @@ OrderedFlight::Rules::Rules(const FaultParameters& given, double tick_s) noexcep
     : parameters(given),
       dt_s(tick_s),
       keeps(std::exp(-given.bounds.residual_leak_per_s * tick_s)),
-      spacing_s((given.bounds.held_s + tick_s) / static_cast<double>(kHeldOrders - 1)) {}
+      spacing_s((given.bounds.held_s + tick_s) / static_cast<double>(kHeldOrders - 1)),
+      limit_m_s2(given.acceleration_limit_m_s2.value_or(given.loop.acceleration_limit_m_s2)) {}
 
 void OrderedFlight::fly(const Rules& rules, const Vec2& u) noexcept {
   const FaultParameters& parameters = rules.parameters;
+  if (std::isfinite(rules.limit_m_s2)) blow(rules, u);
   if (parameters.acceleration_limit_m_s2) {
     const dynamics::PlanarVehicle vehicle{1.0 / parameters.loop.proportional_per_s, parameters.acceleration_limit_m_s2};
     const dynamics::PlanarState next = dynamics::advance(vehicle, {model_.position, model_.velocity}, u, rules.dt_s);
@@ -24,6 +26,21 @@ void OrderedFlight::fly(const Rules& rules, const Vec2& u) noexcept {
     model_ = dynamics::advance(parameters.loop, model_, u, rules.dt_s);
   }
   hold(rules, u);
+}
+
+/// A vehicle that needs all its acceleration for its orders has none left against gusts: of the stiffness that holds
+/// them, the slope of the limit remains.
+void OrderedFlight::blow(const Rules& rules, const Vec2& u) noexcept {
+  const dynamics::VelocityLoop& loop = rules.parameters.loop;
+  const double drift_m_s = rules.parameters.bounds.drift_m_s;
+  const double push_m_s2 = drift_m_s * (loop.proportional_per_s + loop.drag_per_s);
+  const double share = loop.proportional_per_s * (loop.gain * u - model_.velocity).norm() / rules.limit_m_s2;
+  const double squared = share * share;
+  const double beyond = 1.0 + squared * squared;
+  const double slope = 1.0 / (beyond * std::sqrt(std::sqrt(beyond)));
+  const double stiffness_per_s = slope * loop.proportional_per_s + loop.drag_per_s;
+  blown_m_s_ += rules.dt_s * (push_m_s2 - stiffness_per_s * blown_m_s_);
+  blown_m_ = rules.keeps * blown_m_ + rules.dt_s * std::max(0.0, blown_m_s_ - drift_m_s);
 }
 
 /// Any of the orders of the last held_s may be flown still; eight of them stand for all.

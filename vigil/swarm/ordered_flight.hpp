@@ -19,8 +19,9 @@ class OrderedFlight {
 
     FaultParameters parameters;
     double dt_s;
-    double keeps;      ///< what a tick leaves of a departure
-    double spacing_s;  ///< between the orders that are held
+    double keeps;       ///< what a tick leaves of a departure
+    double spacing_s;   ///< between the orders that are held
+    double limit_m_s2;  ///< of acceleration; infinite: none
   };
 
   /// One tick of one order.
@@ -33,7 +34,7 @@ class OrderedFlight {
   [[nodiscard]] const Vec2& place() const noexcept { return model_.position; }
   [[nodiscard]] const Vec2& velocity() const noexcept { return model_.velocity; }
   /// So far a healthy drone may be from there, beside noise, gusts and the model's error. m.
-  [[nodiscard]] double explained_m() const noexcept { return held_m_ + lost_m_; }
+  [[nodiscard]] double explained_m() const noexcept { return held_m_ + lost_m_ + blown_m_; }
 
  private:
   /// An order that it may still fly, because newer ones got lost, and how far that leads from the newer ones.
@@ -45,12 +46,15 @@ class OrderedFlight {
   static constexpr std::size_t kHeldOrders = 8;
 
   void hold(const Rules& rules, const Vec2& u) noexcept;
+  void blow(const Rules& rules, const Vec2& u) noexcept;
 
   dynamics::PlanarLoopState model_;
   std::array<HeldOrder, kHeldOrders> held_{};  ///< a ring
   std::size_t newest_ = 0;
   double held_m_ = 0.0;
   double lost_m_ = 0.0;
+  double blown_m_s_ = 0.0;  ///< what gusts make of its velocity at most
+  double blown_m_ = 0.0;    ///< beyond what the threshold for a vehicle within its limits has of it
 };
 
 }  // namespace vigil::swarm

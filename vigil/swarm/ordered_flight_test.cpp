@@ -75,6 +75,24 @@ TEST(OrderedFlight, Whatever_a_burst_of_losses_makes_of_orders_at_random_is_expl
   }
 }
 
+TEST(OrderedFlight, A_vehicle_at_its_limits_is_given_what_gusts_make_of_it_there_and_none_else_is) {
+  FaultParameters parameters;
+  parameters.loop = dynamics::arducopter_vehicle().horizontal;
+  parameters.bounds.drift_m_s = 0.5;
+  const OrderedFlight::Rules limited(parameters, kStep);
+  OrderedFlight flight;
+  for (int i = 0; i < 1000; ++i) flight.fly(limited, Vec2(0.5, 0.0));
+  EXPECT_LT(flight.explained_m(), 0.05);
+  for (int i = 0; i < 100; ++i) flight.fly(limited, Vec2(-5.0, 0.0));
+  const double at_limits = flight.explained_m();
+  parameters.bounds.drift_m_s = 0.0;
+  const OrderedFlight::Rules calm(parameters, kStep);
+  OrderedFlight in_calm;
+  for (int i = 0; i < 1000; ++i) in_calm.fly(calm, Vec2(0.5, 0.0));
+  for (int i = 0; i < 100; ++i) in_calm.fly(calm, Vec2(-5.0, 0.0));
+  EXPECT_GT(at_limits, in_calm.explained_m() + 0.5);
+}
+
 TEST(OrderedFlight, A_restart_goes_on_from_the_velocity_and_explains_what_is_not_known_of_the_vehicle) {
   FaultParameters parameters;
   parameters.loop = dynamics::first_order_lag_vehicle(0.3).horizontal;
