@@ -163,7 +163,7 @@ void add_broken_structures(std::vector<MalformedMission>& table) {
   add("a shift of nothing", but("do: land, drone: b", "do: shift_tracking, drone: b, for_s: 2"),
       "simulation.events[0].shift_m", "is missing");
   add("a drift that never ends", but("do: land, drone: b", "do: drift, drone: b, velocity_m_s: [1, 0], for_s: .inf"),
-      "simulation.events[0].for_s", "must be in (0, 1000000] s");
+      "simulation.events[0].for_s", "must be a number in (0, 1000000] s");
   add("an unasked landing for a while", but("do: land, drone: b", "do: land_by_itself, drone: b, for_s: 3"),
       "simulation.events[0].for_s", "must be one of: at_s, do, drone");
   add("an event before the start", but("at_s: 10", "at_s: -10"), "simulation.events[0].at_s",
