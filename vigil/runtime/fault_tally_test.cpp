@@ -25,7 +25,7 @@ Mission drifting_mission() {
 }
 
 void alarm(FaultTally& tally, double time_s, std::size_t drone, Activity after, Fault fault) {
-  swarm::Snapshot snapshot;
+  swarm::Snapshot snapshot(2);
   snapshot.time_s = time_s;
   swarm::Event event;
   event.drone = DroneId(drone);
