@@ -1,8 +1,10 @@
-// What previews promise, against what then happens, on 20 random missions without faults: prints the table of
-// docs/preview.md.
+// What previews promise, against what then happens, on random missions without faults: prints the table of
+// docs/preview.md. usage: preview_honesty [missions]   20 unless told
 
 #include "vigil/runtime/preview_honesty.hpp"
 
+#include <charconv>
+#include <cstring>
 #include <string>
 #include <vector>
 
@@ -35,14 +37,29 @@ void print_case(const HonestyCase& one) {
              in_words(one.promises, &AreaPromise::seen));
 }
 
+constexpr std::size_t kMostMissions = 2000;
+
+/// The number of missions that the command line asks for; 0 where it is none of 1 to kMostMissions.
+std::size_t missions_asked(int argc, char** argv) {
+  if (argc == 1) return 20;
+  std::size_t missions = 0;
+  const char* end = argv[1] + std::strlen(argv[1]);
+  const auto read = std::from_chars(argv[1], end, missions);
+  return argc == 2 && read.ec == std::errc{} && read.ptr == end && missions <= kMostMissions ? missions : 0;
+}
+
 }  // namespace
 }  // namespace vigil
 
-int main() {
+int main(int argc, char** argv) {
   using vigil::runtime::AreaPromise;
-  constexpr std::size_t kMissions = 20;
+  const std::size_t missions = vigil::missions_asked(argc, argv);
+  if (missions == 0) {
+    fmt::print(stderr, "usage: preview_honesty [missions]   1 to {}, 20 unless told\n", vigil::kMostMissions);
+    return 2;
+  }
   const auto cases = vigil::runtime::honesty_cases(
-      kMissions, [](const vigil::runtime::Mission& mission) { return vigil::apps::simulated_fleet(mission); });
+      missions, [](const vigil::runtime::Mission& mission) { return vigil::apps::simulated_fleet(mission); });
   fmt::print("| seed | drones | vehicle | covered in: foreseen / was, s | all seen in: foreseen / was, s |\n");
   fmt::print("| --- | --- | --- | --- | --- |\n");
   for (const vigil::runtime::HonestyCase& one : cases) vigil::print_case(one);

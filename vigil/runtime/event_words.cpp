@@ -201,8 +201,10 @@ std::string refusal_words(std::string_view id, CommandKind wish, const swarm::Dr
         return fmt::format("{} is marked as failed; resume it before it flies to a place", id);
       if (drone.activity == Activity::kOverridden)
         return fmt::format("a pilot has {}; it must be given back first", id);
-      return fmt::format("{} may not fly to that place; choose one inside the field and outside every no-fly polygon",
-                         id);
+      return fmt::format(
+          "{} may not fly to that place; choose one inside the field, outside every no-fly polygon and "
+          "not walled in by them",
+          id);
     case CommandKind::kResume:
       return fmt::format("{} is neither held, nor at a place, nor marked as failed", id);
     case CommandKind::kGiveBack:

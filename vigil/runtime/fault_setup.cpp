@@ -67,13 +67,15 @@ dynamics::FaultProblem fault_problem(const Mission& mission) {
   problem.u_max_m_s = mission.control.speed_limit_m_s;
   problem.dt_s = tick_s(mission);
   problem.period_s = measurement_period_s(mission);
+  problem.jitter_s = tracker.jitter_s + (tracker.over_link ? mission.simulation.link.jitter_s : 0.0);
   problem.noise_m = tracker.noise_m;
   problem.velocity_noise_m_s = tracker.velocity_noise_m_s;
   problem.bias_m = tracker.bias_m;
   problem.bias_time_s = tracker.bias_time_s;
   problem.push_m_s2 = margins.push_m_s2;
   problem.push_time_s = margins.push_time_s;
-  problem.held_s = longest_burst_s(mission) + margins.unsteady_delay_s;
+  // One change of orders may be flown early and the next one late: both err to the same side.
+  problem.held_s = longest_burst_s(mission) + 2.0 * margins.unsteady_delay_s;
   problem.packet_period_s = packet_period_s(mission);
   problem.hovers_after_s = dynamics::failsafe_of(assumed_vehicle(mission).kind).hover_after_s;
   problem.lost_share = mission.simulation.link.loss;

@@ -227,7 +227,7 @@ class Trial {
   [[nodiscard]] double jump_m() const {
     return std::max(mission_.safety.separation_m, kClearlyBeyond * bounds_.jump_m + bounds_.reach_m_s * unseen_s());
   }
-  [[nodiscard]] double unseen_s() const { return bounds_.period_s + 2.0 * tick_s(mission_); }
+  [[nodiscard]] double unseen_s() const { return bounds_.longest_span_s + 2.0 * tick_s(mission_); }
 
   [[nodiscard]] bool has_shown() const {
     const TruthSample& truth = fleet_->truth()[drone_];
@@ -345,13 +345,13 @@ double stated_time_s(const Mission& mission, Misfortune misfortune) {
     case Misfortune::kCutOff:
       return mission.health.link_timeout_s + link_news_s(mission) - longest_burst_s(mission);
     case Misfortune::kFrozen:
-      return bounds.frozen_s + bounds.period_s + position_news_s(mission);
+      return bounds.frozen_s + bounds.longest_span_s + position_news_s(mission);
     case Misfortune::kJumped:
     case Misfortune::kSwapped:
       return bounds.confirm_s + position_news_s(mission);
     case Misfortune::kSkewed:
-      return filling_s(bounds.disagreement_m, bounds.disagreement_leak_per_s, skew_m_s(mission)) + bounds.period_s +
-             position_news_s(mission);
+      return filling_s(bounds.disagreement_m, bounds.disagreement_leak_per_s, skew_m_s(mission)) +
+             bounds.longest_span_s + position_news_s(mission);
     case Misfortune::kDeaf:
     case Misfortune::kDrifting:
     case Misfortune::kFliesAway:

@@ -8,10 +8,9 @@
 namespace vigil::swarm {
 namespace {
 
-constexpr double kOver = 0.5;           // of a threshold: below it, what was beyond is well again
-constexpr int kMostRelapses = 6;        // the time that it must stay well doubles with each
-constexpr double kForgottenS = 60.0;    // well for so long, and relapses are forgotten
-constexpr double kSteadyPeriods = 2.5;  // positions farther apart say nothing of the velocity between them
+constexpr double kOver = 0.5;         // of a threshold: below it, what was beyond is well again
+constexpr int kMostRelapses = 6;      // the time that it must stay well doubles with each
+constexpr double kForgottenS = 60.0;  // well for so long, and relapses are forgotten
 constexpr int kLeastRepeats = 4;
 
 /// In the air and, as far as it says, under our orders: what the monitor has expectations of.
@@ -165,8 +164,11 @@ void FaultMonitor::compare(Watched& drone, const DroneObservation& observed, dou
   const Vec2 moved = observed.position - drone.place;
   drone.residual =
       std::exp(-bounds.residual_leak_per_s * span_s) * drone.residual + moved - (model_place - drone.model_place);
-  if (span_s > kSteadyPeriods * bounds.period_s + setup_.dt_s) return;
-  if (drone.velocity.isZero(0.0) && velocity_of(observed).isZero(0.0)) return;  // nobody reports velocities
+  // Noise is in the first and in the last position of an unbroken row: a sum over a gap would take in four of them.
+  const bool is_broken = span_s > bounds.longest_span_s;
+  const bool is_silent = drone.velocity.isZero(0.0) && velocity_of(observed).isZero(0.0);  // nobody reports velocities
+  if (is_broken) drone.disagreement.setZero();
+  if (is_broken || is_silent) return;
   const Vec2 told = 0.5 * span_s * (drone.velocity + velocity_of(observed));
   drone.disagreement = std::exp(-bounds.disagreement_leak_per_s * span_s) * drone.disagreement + told - moved;
 }

@@ -59,7 +59,7 @@ void visit_parameters(Visit& visit, Parameters& p) {
   visit.limit(p.faults.loop.jerk_limit_m_s3);
   visit(p.faults.loop.response_delay_s);
   visit(p.faults.acceleration_limit_m_s2);
-  visit(p.faults.bounds.period_s);
+  visit(p.faults.bounds.longest_span_s);
   visit(p.faults.bounds.held_s);
   visit(p.faults.bounds.lost_share);
   visit(p.faults.bounds.reach_m_s);

@@ -17,6 +17,7 @@ constexpr double kTypicalDisobedience = 0.5;  // of u_max
 constexpr double kSlowestLeak = 0.1;          // 1/s
 constexpr double kFastestLeak = 4.0;          // 1/s
 constexpr double kLeakStep = 1.25;
+constexpr double kSteadyPeriods = 2.5;     // positions farther apart say nothing of the velocity between them
 constexpr double kDisagreementLeak = 1.0;  // 1/s: an estimator's own time constants are shorter
 
 /// How quickly a vehicle gives in to a push, and by how much per m/s^2: one over its stiffness.
@@ -69,16 +70,19 @@ double silent_after_s(const FaultProblem& problem) {
   return std::max(few_s, std::min(problem.held_s, problem.hovers_after_s));
 }
 
+/// Where news overtakes other news, what is overtaken is never seen: the next measurement is as much later.
+double span_s(const FaultProblem& problem) { return problem.period_s + problem.jitter_s; }
+
 /// A velocity that is reported but for noise, against the way from one position to the next: between two measurements
 /// it is the mean of both but for what the vehicle changes it by, whose sum telescopes.
 double disagreement_bound(const FaultProblem& problem) {
   constexpr double kLeak = kDisagreementLeak;
   const double position = std::numbers::sqrt2 * problem.noise_m;
-  const double velocity = problem.velocity_noise_m_s * std::sqrt(problem.period_s / (2.0 * kLeak));
+  const double velocity = problem.velocity_noise_m_s * std::sqrt(span_s(problem) / (2.0 * kLeak));
   const double bias = changed(problem.bias_m, problem.bias_time_s, kLeak);
   const double give = give_s(problem.loop);
-  const double change = 2.0 * problem.u_max_m_s * (give > 0.0 ? std::min(1.0, problem.period_s / give) : 1.0);
-  return kFaultSigmas * std::hypot(position, velocity, bias) + change * problem.period_s;
+  const double change = 2.0 * problem.u_max_m_s * (give > 0.0 ? std::min(1.0, span_s(problem) / give) : 1.0);
+  return kFaultSigmas * std::hypot(position, velocity, bias) + change * span_s(problem);
 }
 
 /// A wandering bias moves by so much in one period: the variance of its increments is 2 sigma^2 (1 - exp(-t/T)).
@@ -90,7 +94,7 @@ double bias_step(const FaultProblem& problem) {
 
 FaultBounds fault_bounds(const FaultProblem& problem) {
   FaultBounds bounds;
-  bounds.period_s = problem.period_s;
+  bounds.longest_span_s = kSteadyPeriods * problem.period_s + problem.jitter_s + problem.dt_s;
   bounds.held_s = problem.held_s;
   bounds.lost_share = problem.lost_share;
   bounds.reach_m_s = 2.0 * problem.u_max_m_s + kFaultSigmas * gust_speed(problem);

@@ -19,6 +19,7 @@ struct FaultProblem {
   double u_max_m_s = 0.0;           ///< > 0
   double dt_s = 0.02;               ///< > 0, the tick
   double period_s = 0.02;           ///< > 0, between two measurements
+  double jitter_s = 0.0;            ///< news of one may be late by so much more than news of another
   double noise_m = 0.0;             ///< of positions: standard deviation per axis, white
   double velocity_noise_m_s = 0.0;  ///< of reported velocities
   double bias_m = 0.0;              ///< of positions: standard deviation per axis, wandering
@@ -34,14 +35,14 @@ struct FaultProblem {
 };
 
 struct FaultBounds {
-  double period_s = 0.02;      ///< of measurements
-  double held_s = 0.0;         ///< of orders
-  double lost_share = 0.0;     ///< of orders
-  double reach_m_s = 0.0;      ///< no drone is seen to move faster, not even one that follows nobody
-  double jump_m = 0.0;         ///< nor errs its tracker more from one position to the next
-  double confirm_s = 0.0;      ///< what is out of reach for so long is a fault, not a stray measurement
-  double frozen_s = 0.0;       ///< the same bits for so long are a tracker that repeats itself
-  bool never_repeats = false;  ///< no two measurements are the same bits, not even of a body at rest
+  double longest_span_s = 0.07;  ///< between two that are seen one after the other while few are lost
+  double held_s = 0.0;           ///< of orders
+  double lost_share = 0.0;       ///< of orders
+  double reach_m_s = 0.0;        ///< no drone is seen to move faster, not even one that follows nobody
+  double jump_m = 0.0;           ///< nor errs its tracker more from one position to the next
+  double confirm_s = 0.0;        ///< what is out of reach for so long is a fault, not a stray measurement
+  double frozen_s = 0.0;         ///< the same bits for so long are a tracker that repeats itself
+  bool never_repeats = false;    ///< no two measurements are the same bits, not even of a body at rest
   double residual_leak_per_s = 1.0;
   double residual_m = 0.0;  ///< beside what orders that got lost explain
   double disagreement_leak_per_s = 1.0;
