@@ -34,7 +34,6 @@ std::chrono::nanoseconds no_clock() { return {}; }
 struct Name {
   Activity activity = Activity::kActive;
   Fault fault = Fault::kNone;
-  friend bool operator==(const Name&, const Name&) = default;
 };
 
 bool is_alarm(const swarm::DroneSnapshot& drone) {
