@@ -93,12 +93,12 @@ sim::FleetParameters fleet_parameters(const runtime::Mission& mission) {
 
 }  // namespace
 
-std::unique_ptr<runtime::VirtualFleet> simulated_fleet(const runtime::Mission& mission) {
-  return std::make_unique<sim::SimulatedFleet>(fleet_parameters(mission), runtime::starts_in_field(mission));
+std::unique_ptr<runtime::VirtualFleet> simulated_fleet(const runtime::Mission& mission, parallel::Workers* workers) {
+  return std::make_unique<sim::SimulatedFleet>(fleet_parameters(mission), runtime::starts_in_field(mission), workers);
 }
 
 std::unique_ptr<runtime::VirtualFleet> simulated_fleet(const runtime::Mission& mission,
-                                                       std::span<const DroneStart> starts) {
+                                                       std::span<const DroneStart> starts, parallel::Workers* workers) {
   sim::FleetParameters parameters = fleet_parameters(mission);
   parameters.starts_flying = true;
   std::vector<Vec2> places;
@@ -106,7 +106,7 @@ std::unique_ptr<runtime::VirtualFleet> simulated_fleet(const runtime::Mission& m
     places.push_back(start.place_m);
     parameters.stays_down.push_back(start.is_down);
   }
-  return std::make_unique<sim::SimulatedFleet>(parameters, places);
+  return std::make_unique<sim::SimulatedFleet>(parameters, places, workers);
 }
 
 std::unique_ptr<runtime::Fleet> crazyswarm_fleet(const runtime::Mission& mission, bool positions_by_tf,

@@ -5,13 +5,16 @@
 #include <span>
 #include <string>
 
+#include "vigil/core/parallel/workers.hpp"
 #include "vigil/runtime/fleet.hpp"
 #include "vigil/runtime/mission.hpp"
 
 namespace vigil::apps {
 
-/// The mission's drones, simulated as its `simulation` section says.
-[[nodiscard]] std::unique_ptr<runtime::VirtualFleet> simulated_fleet(const runtime::Mission& mission);
+/// The mission's drones, simulated as its `simulation` section says; by the workers, where there are any, who outlive
+/// the fleet.
+[[nodiscard]] std::unique_ptr<runtime::VirtualFleet> simulated_fleet(const runtime::Mission& mission,
+                                                                     parallel::Workers* workers = nullptr);
 
 /// The mission's drones as Crazyswarm flies them. Needs a ros_bridge::Session. `tell`: told what did not work.
 [[nodiscard]] std::unique_ptr<runtime::Fleet> crazyswarm_fleet(const runtime::Mission& mission, bool positions_by_tf,
@@ -25,6 +28,7 @@ struct DroneStart {
 
 /// The same, begun elsewhere. Precondition: as many starts as drones.
 [[nodiscard]] std::unique_ptr<runtime::VirtualFleet> simulated_fleet(const runtime::Mission& mission,
-                                                                     std::span<const DroneStart> starts);
+                                                                     std::span<const DroneStart> starts,
+                                                                     parallel::Workers* workers = nullptr);
 
 }  // namespace vigil::apps

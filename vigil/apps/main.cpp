@@ -19,6 +19,7 @@
 #include "vigil/apps/report_command.hpp"
 #include "vigil/apps/serve_command.hpp"
 #include "vigil/apps/simulate_command.hpp"
+#include "vigil/core/parallel/workers.hpp"
 #include "vigil/runtime/mission_error.hpp"
 
 namespace vigil::apps {
@@ -54,6 +55,14 @@ void add_recording_options(CLI::App* command, RecordingOptions& options) {
       ->check(CLI::Range(std::uint64_t{0}, kMostMib));
 }
 
+void add_threads(CLI::App* command, std::size_t& threads) {
+  command
+      ->add_option("--threads", threads,
+                   "How many threads share a tick (default: one for every thousand drones, as far as there are cores); "
+                   "the flight is the same to the last bit")
+      ->check(CLI::Range(std::size_t{1}, parallel::kMostThreads));
+}
+
 /// A footer of a command's help: what its exit tells, in the order of the codes.
 std::string exit_codes(std::string_view failed_check, bool can_be_interrupted) {
   return fmt::format("Exit codes: 0 done, {}2 bad arguments or mission file, 3 a component is missing or failed{}.",
@@ -83,6 +92,7 @@ CLI::App* add_simulate(CLI::App& program, SimulateOptions& options) {
   command->add_option("--seed", options.shorthands.seed, "The seed of everything random instead of the mission's")
       ->type_name("NUMBER");
   add_recording_options(command, options.recording);
+  add_threads(command, options.threads);
   command->add_flag("--json", options.json, "Print summary.json instead of a text");
   add_settings(command, options.settings);
   command->footer(exit_codes("", true));
@@ -201,6 +211,7 @@ CLI::App* add_serve(CLI::App& program, ServeOptions& options) {
   add_console_options(command, options.console);
   command->add_option("--record", options.record, "Directory for a recording; must not exist")->check(not_empty());
   add_recording_options(command, options.recording);
+  add_threads(command, options.threads);
   command->add_option("--state", options.state, "Directory from which a restarted program goes on where it was")
       ->check(not_empty());
   command->add_flag("--afresh", options.afresh, "Forget what an earlier run left in --state");

@@ -18,6 +18,7 @@
 #include "vigil/apps/mission_choice.hpp"
 #include "vigil/apps/results_folder.hpp"
 #include "vigil/apps/ros_side.hpp"
+#include "vigil/apps/thread_choice.hpp"
 #include "vigil/runtime/controller_setup.hpp"
 #include "vigil/runtime/event_words.hpp"
 #include "vigil/runtime/live_mission.hpp"
@@ -76,6 +77,15 @@ std::vector<swarm::Intent> standing_of(const runtime::SavedFlight& saved) {
   return standing;
 }
 
+/// They have the control thread's priority; none where it would be alone.
+std::unique_ptr<parallel::Workers> workers_for(const runtime::Mission& mission, const ServeOptions& options) {
+  const std::size_t threads = threads_for(mission.drones.size(), options.threads);
+  std::unique_ptr<parallel::Workers> workers;
+  if (threads > 1)
+    runtime::start_with_real_time_priority([&] { workers = std::make_unique<parallel::Workers>(threads); });
+  return workers;
+}
+
 /// `saved`: what an earlier run left, or null. `ros`: there where the fleet is "ros".
 std::shared_ptr<runtime::LiveMission> make_flight(const runtime::Mission& mission, const ServeOptions& options,
                                                   std::uint32_t epoch, const runtime::SavedFlight* saved,
@@ -85,19 +95,23 @@ std::shared_ptr<runtime::LiveMission> make_flight(const runtime::Mission& missio
   if (saved != nullptr) start.first_intent = swarm::Intent::kHold;
   if (saved != nullptr) start.standing = standing_of(*saved);
   if (saved != nullptr && saved->past.ticks > 0) start.past = saved->past;
+  std::unique_ptr<parallel::Workers> workers = workers_for(mission, options);
   if (options.fleet == "ros") {
     // What stands there stays down until somebody lets it take off; what is in the air is somebody else's.
     if (saved == nullptr) start.first_intent = swarm::Intent::kStayDown;
     start.has_real_drones = true;
     auto fleet = crazyswarm_fleet(mission, options.ros_tf, [ros](const std::string& text) { ros->warn(text); });
     return std::make_shared<runtime::LiveMission>(mission, std::move(fleet), nullptr,
-                                                  recorder_for(mission, options, start, epoch), start, epoch);
+                                                  recorder_for(mission, options, start, epoch), start, epoch,
+                                                  runtime::drive_in_real_time, std::move(workers));
   }
-  std::unique_ptr<runtime::VirtualFleet> fleet =
-      saved == nullptr ? simulated_fleet(mission) : simulated_fleet(mission, starts_of(*saved));
+  std::unique_ptr<runtime::VirtualFleet> fleet = saved == nullptr
+                                                     ? simulated_fleet(mission, workers.get())
+                                                     : simulated_fleet(mission, starts_of(*saved), workers.get());
   runtime::VirtualFleet* const world = fleet.get();
   return std::make_shared<runtime::LiveMission>(mission, std::move(fleet), world,
-                                                recorder_for(mission, options, start, epoch), start, epoch);
+                                                recorder_for(mission, options, start, epoch), start, epoch,
+                                                runtime::drive_in_real_time, std::move(workers));
 }
 
 /// A new mission's fleet knows nothing of drones that the old one's flies: they would be nobody's.

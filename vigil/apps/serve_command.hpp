@@ -15,6 +15,7 @@ struct ServeOptions {
   ConsoleOptions console;
   std::filesystem::path record;  ///< empty: nothing is recorded
   RecordingOptions recording;
+  std::size_t threads = 0;            ///< 0: as many as the swarm is worth
   std::filesystem::path state;        ///< empty: nothing is kept for a restart
   bool afresh = false;                ///< forget what an earlier run left
   std::vector<std::string> settings;  ///< key=value

@@ -14,6 +14,7 @@
 #include "vigil/apps/progress_bar.hpp"
 #include "vigil/apps/results_folder.hpp"
 #include "vigil/apps/text_file.hpp"
+#include "vigil/apps/thread_choice.hpp"
 #include "vigil/runtime/controller_setup.hpp"
 #include "vigil/runtime/mission_error.hpp"
 #include "vigil/runtime/mission_writer.hpp"
@@ -61,10 +62,11 @@ int simulate(const SimulateOptions& options) {
   create_results("--out", options.out);
   catch_interrupts();
 
-  const std::unique_ptr<runtime::VirtualFleet> fleet = simulated_fleet(mission);
+  parallel::Workers workers(threads_for(mission.drones.size(), options.threads));
+  const std::unique_ptr<runtime::VirtualFleet> fleet = simulated_fleet(mission, &workers);
   recording::BagRecorder recorder(options.out, runtime::mission_yaml(mission), recorder_options(options.recording));
   recorder.begin(mission, {runtime::first_intent(mission), {}});
-  runtime::VirtualFlight flight(mission, *fleet, &recorder, now);
+  runtime::VirtualFlight flight(mission, *fleet, &recorder, now, &workers);
   fly(flight);
   recorder.finish();
 

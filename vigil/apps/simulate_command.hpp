@@ -16,7 +16,8 @@ struct SimulateOptions {
   Shorthands shorthands;              ///< instead of what the mission says
   std::vector<std::string> settings;  ///< key=value
   RecordingOptions recording;
-  bool json = false;  ///< the summary to standard output
+  std::size_t threads = 0;  ///< 0: as many as the swarm is worth
+  bool json = false;        ///< the summary to standard output
 };
 
 /// `vigil simulate`: flies the mission as fast as it can and leaves `recording/` and `summary.json` in options.out.

@@ -17,7 +17,8 @@ void lower(double& least, double value) { least = std::min(least, value); }
 
 }  // namespace
 
-FlightAudit::FlightAudit(AuditLimits limits, std::size_t drones) : limits_(std::move(limits)), piloted_(drones, 0) {
+FlightAudit::FlightAudit(AuditLimits limits, std::size_t drones)
+    : limits_(std::move(limits)), near_(limits_.field, limits_.separation_m, drones), piloted_(drones, 0) {
   airborne_.reserve(drones);
 }
 
@@ -39,23 +40,28 @@ void FlightAudit::note_pilots(std::span<const TruthSample> truth) noexcept {
   }
 }
 
-/// Sweeps from left to right; a pair farther apart in x than both R_s and the least distances so far changes nothing.
+/// A pair that is farther apart than both R_s and the least distance so far changes nothing.
 void FlightAudit::judge_pairs(std::span<const TruthSample> truth, const swarm::Snapshot& snapshot,
                               Clearances& now) noexcept {
-  const auto x = [&](std::size_t drone) { return truth[drone].position.x(); };
-  std::sort(airborne_.begin(), airborne_.end(), [&](std::size_t a, std::size_t b) { return x(a) < x(b); });
-  for (std::size_t i = 0; i < airborne_.size(); ++i) {
-    for (std::size_t j = i + 1; j < airborne_.size(); ++j) {
-      const std::size_t a = airborne_[i];
-      const std::size_t b = airborne_[j];
-      if (x(b) - x(a) > std::max(limits_.separation_m, now.active_pair_m)) break;
-      const double distance = (truth[a].position - truth[b].position).norm();
-      lower(now.airborne_pair_m, distance);
-      const bool both_active = snapshot.drones[a].activity == swarm::Activity::kActive &&
-                               snapshot.drones[b].activity == swarm::Activity::kActive;
-      if (both_active) lower(now.active_pair_m, distance);
-      if (distance < limits_.separation_m - kRounding) ++totals_.separation_violations;
-    }
+  const auto position_of = [&](std::size_t i) -> const Vec2& { return truth[airborne_[i]].position; };
+  const auto is_active = [&](std::size_t i) {
+    return snapshot.drones[airborne_[i]].activity == swarm::Activity::kActive;
+  };
+  near_.sort(airborne_.size(), position_of);
+  const std::span<const std::uint32_t> sorted = near_.sorted();
+  const auto judge_pair = [&](std::size_t a, std::size_t b) {
+    const double distance = (position_of(a) - position_of(b)).norm();
+    lower(now.airborne_pair_m, distance);
+    if (is_active(a) && is_active(b)) lower(now.active_pair_m, distance);
+    if (distance < limits_.separation_m - kRounding) ++totals_.separation_violations;
+  };
+  for (std::size_t place = 0; place < near_.placed(); ++place) {
+    const std::size_t own = sorted[place];
+    const double least_m = is_active(own) ? now.active_pair_m : now.airborne_pair_m;
+    near_.visit_parts(position_of(own), std::max(limits_.separation_m, least_m),
+                      [&](std::size_t first, std::size_t last) {
+                        for (first = std::max(first, place + 1); first < last; ++first) judge_pair(own, sorted[first]);
+                      });
   }
 }
 

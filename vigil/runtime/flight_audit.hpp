@@ -6,6 +6,7 @@
 
 #include "vigil/core/field/field.hpp"
 #include "vigil/core/field/polygon.hpp"
+#include "vigil/core/safety/neighbour_grid.hpp"
 #include "vigil/runtime/fleet.hpp"
 #include "vigil/runtime/recorder.hpp"
 #include "vigil/swarm/snapshot.hpp"
@@ -55,7 +56,8 @@ class FlightAudit {
 
   AuditLimits limits_;
   AuditTotals totals_;
-  std::vector<std::size_t> airborne_;  ///< work space: drones in the air, from left to right
+  std::vector<std::size_t> airborne_;  ///< work space: drones in the air
+  safety::NeighbourGrid near_;         ///< work space: where they are
   std::vector<std::uint8_t> piloted_;  ///< 1 from when a pilot takes a drone until it is back within the limits
 };
 

@@ -49,6 +49,41 @@ TEST(FlightAudit, A_pair_closer_than_R_s_is_a_violation_and_one_at_R_s_is_not) {
   EXPECT_EQ(judged(Scene({{1.0, 1.0}, {1.2, 1.0}})).separation_violations, 0U);
 }
 
+TEST(FlightAudit, No_pair_is_missed_in_any_crowd) {
+  std::mt19937_64 random(5);
+  std::uniform_real_distribution<double> place(-0.3, 3.3);  // some are outside
+  std::uniform_int_distribution<int> die(0, 5);
+  for (const std::size_t drones : {2U, 3U, 7U, 40U, 300U}) {
+    for (int trial = 0; trial < 20; ++trial) {
+      std::vector<Vec2> places;
+      for (std::size_t i = 0; i < drones; ++i) places.emplace_back(place(random), place(random));
+      Scene scene(places);
+      for (std::size_t i = 0; i < drones; ++i) {
+        if (die(random) == 0) scene.land(i);
+        if (die(random) < trial % 6) scene.snapshot.drones[i].activity = swarm::Activity::kHeld;
+      }
+      const auto is_up = [&](std::size_t i) { return scene.truth[i].mode == swarm::VehicleMode::kFlying; };
+      const auto covers = [&](std::size_t i) { return scene.snapshot.drones[i].activity == swarm::Activity::kActive; };
+      std::uint64_t violations = 0;
+      double airborne_m = HUGE_VAL;
+      double active_m = HUGE_VAL;
+      for (std::size_t a = 0; a < drones; ++a) {
+        for (std::size_t b = 0; b < a; ++b) {
+          if (!is_up(a) || !is_up(b)) continue;
+          const double distance = (places[a] - places[b]).norm();
+          violations += distance < limits().separation_m - 1e-9 ? 1U : 0U;
+          airborne_m = std::min(airborne_m, distance);
+          if (covers(a) && covers(b)) active_m = std::min(active_m, distance);
+        }
+      }
+      const AuditTotals totals = judged(scene);
+      ASSERT_EQ(totals.separation_violations, violations) << drones << " drones, trial " << trial;
+      ASSERT_EQ(totals.least.airborne_pair_m, airborne_m);
+      ASSERT_EQ(totals.least.active_pair_m, active_m);
+    }
+  }
+}
+
 TEST(FlightAudit, A_landed_drone_comes_too_close_to_nobody) {
   Scene scene({{1.0, 1.0}, {1.05, 1.0}, {2.0, 2.0}});
   scene.land(1);

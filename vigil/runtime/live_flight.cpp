@@ -20,10 +20,11 @@ bool concerns_drones(CommandKind kind) { return kind != CommandKind::kSetTarget 
 }  // namespace
 
 LiveFlight::LiveFlight(const Mission& mission, Fleet& fleet, VirtualFleet* world, Recorder* recorder,
-                       const FlightStart& start)
+                       const FlightStart& start, parallel::Workers* workers)
     : fleet_(fleet),
       world_(world),
       recorder_(recorder),
+      workers_(workers),
       state_(swarm_parameters(mission, start)),
       standing_(start.standing),
       observations_(mission.drones.size()),
@@ -148,7 +149,7 @@ void LiveFlight::step(std::span<const LiveCommand> commands, LiveFrame& out, Out
   play_script(time_s, outbox);
   gather(commands);
   fleet_.observe(mission_time(time_s), observations_);
-  swarm::tick(state_, observations_, commands_, out.snapshot);
+  swarm::tick(state_, observations_, commands_, out.snapshot, workers_);
   tell(commands, out.snapshot, outbox);
   judge_and_record(out.snapshot);
   give_orders(out.snapshot);

@@ -57,8 +57,9 @@ struct LiveEvent {
 class LiveFlight {
  public:
   /// Precondition: a mission that mission checks accepted; what is referred to outlives this. `world`: the fleet where
-  /// it is a simulated one, otherwise null, and the script is not played; recorder may be null.
-  LiveFlight(const Mission& mission, Fleet& fleet, VirtualFleet* world, Recorder* recorder, const FlightStart& start);
+  /// it is a simulated one, otherwise null, and the script is not played; recorder and workers may be null.
+  LiveFlight(const Mission& mission, Fleet& fleet, VirtualFleet* world, Recorder* recorder, const FlightStart& start,
+             parallel::Workers* workers = nullptr);
 
   /// One tick under `commands`, all of kind kSwarm: events, observation, control, judgement, record, orders; in a
   /// simulated world dt passes. Writes all of `out` but what is the clock's. Precondition: events_of(commands) does not
@@ -81,6 +82,7 @@ class LiveFlight {
   Fleet& fleet_;
   VirtualFleet* world_;
   Recorder* recorder_;
+  parallel::Workers* workers_;
   swarm::SwarmState state_;
   std::optional<FlightScript> script_;
   std::optional<GoalScript> goals_;

@@ -19,13 +19,14 @@ void drive_in_real_time(const std::stop_token& stop, ControlLoop& loop) {
 
 LiveMission::LiveMission(Mission mission, std::unique_ptr<Fleet> fleet, VirtualFleet* world,
                          std::unique_ptr<QueuedRecorder> recorder, const FlightStart& start, std::uint32_t epoch,
-                         Drive drive)
+                         Drive drive, std::unique_ptr<parallel::Workers> workers)
     : mission_(std::move(mission)),
+      workers_(std::move(workers)),
       fleet_(std::move(fleet)),
       recorder_(std::move(recorder)),
       epoch_(epoch),
       has_real_drones_(world == nullptr),
-      flight_(mission_, *fleet_, world, recorder_.get(), start),
+      flight_(mission_, *fleet_, world, recorder_.get(), start, workers_.get()),
       loop_(flight_, mission_.drones.size()),
       drive_(std::move(drive)) {}
 

@@ -29,10 +29,11 @@ void drive_in_real_time(const std::stop_token& stop, ControlLoop& loop);
 class LiveMission final : public ShownFlight {
  public:
   /// `world`: the fleet where it is a simulated one, otherwise null. `epoch` tells missions apart that one program
-  /// flies one after the other. The recorder may be null.
+  /// flies one after the other. The recorder may be null, and so may the workers, who share a tick with the control
+  /// thread.
   LiveMission(Mission mission, std::unique_ptr<Fleet> fleet, VirtualFleet* world,
               std::unique_ptr<QueuedRecorder> recorder, const FlightStart& start, std::uint32_t epoch,
-              Drive drive = drive_in_real_time);
+              Drive drive = drive_in_real_time, std::unique_ptr<parallel::Workers> workers = nullptr);
   /// Ends the control thread.
   ~LiveMission() override;
   LiveMission(const LiveMission&) = delete;
@@ -66,7 +67,8 @@ class LiveMission final : public ShownFlight {
 
  private:
   Mission mission_;
-  std::unique_ptr<Fleet> fleet_;
+  std::unique_ptr<parallel::Workers> workers_;
+  std::unique_ptr<Fleet> fleet_;  ///< may be theirs, too
   std::unique_ptr<QueuedRecorder> recorder_;
   std::uint32_t epoch_;
   bool has_real_drones_;

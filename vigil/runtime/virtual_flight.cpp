@@ -11,11 +11,13 @@
 #include "vigil/swarm/names.hpp"
 
 namespace vigil::runtime {
-VirtualFlight::VirtualFlight(Mission mission, VirtualFleet& fleet, Recorder* recorder, Stopwatch stopwatch)
+VirtualFlight::VirtualFlight(Mission mission, VirtualFleet& fleet, Recorder* recorder, Stopwatch stopwatch,
+                             parallel::Workers* workers)
     : mission_(std::move(mission)),
       fleet_(fleet),
       recorder_(recorder),
       stopwatch_(std::move(stopwatch)),
+      workers_(workers),
       state_(swarm_parameters(mission_, first_intent(mission_))),
       snapshot_(mission_.drones.size()),
       script_(mission_, fleet),
@@ -109,7 +111,7 @@ void VirtualFlight::step() {
 
   fleet_.observe(mission_time(time_s), observations_);
   const std::chrono::nanoseconds before = stopwatch_();
-  swarm::tick(state_, observations_, due.commands, snapshot_);
+  swarm::tick(state_, observations_, due.commands, snapshot_, workers_);
   const std::chrono::duration<double, std::micro> took = stopwatch_() - before;
 
   watch_areas(time_s);

@@ -18,11 +18,14 @@ namespace vigil::runtime {
 /// A monotonic clock; injected, so that only the program's outermost room knows the real one.
 using Stopwatch = std::function<std::chrono::nanoseconds()>;
 
-/// A whole mission flown as fast as it can be computed: script, fleet, tick, judge, recorder. One thread.
+/// A whole mission flown as fast as it can be computed: script, fleet, tick, judge, recorder. One thread, and the
+/// workers that it is given; the same bits with any number of them.
 class VirtualFlight {
  public:
-  /// Precondition: a mission that mission checks accepted; fleet and recorder outlive this. recorder may be null.
-  VirtualFlight(Mission mission, VirtualFleet& fleet, Recorder* recorder, Stopwatch stopwatch);
+  /// Precondition: a mission that mission checks accepted; fleet, recorder and workers outlive this, of whom the last
+  /// two may be null.
+  VirtualFlight(Mission mission, VirtualFleet& fleet, Recorder* recorder, Stopwatch stopwatch,
+                parallel::Workers* workers = nullptr);
 
   [[nodiscard]] std::uint64_t ticks_to_fly() const noexcept { return ticks_to_fly_; }
   [[nodiscard]] std::uint64_t ticks_flown() const noexcept { return state_.ticks(); }
@@ -46,6 +49,7 @@ class VirtualFlight {
   VirtualFleet& fleet_;
   Recorder* recorder_;
   Stopwatch stopwatch_;
+  parallel::Workers* workers_;
   swarm::SwarmState state_;
   swarm::Snapshot snapshot_;
   FlightScript script_;

@@ -18,6 +18,9 @@ enum Purpose : std::uint64_t {
 
 constexpr std::uint64_t kWholeFleet = ~std::uint64_t{0};
 
+/// Drones that one thread looks after before it asks for more.
+constexpr std::size_t kPart = 256;
+
 /// An order waits for the link, and for whatever else delays it.
 LinkParameters order_link(const FleetParameters& parameters) {
   LinkParameters link = parameters.link;
@@ -34,15 +37,26 @@ std::size_t dead_ticks(const FleetParameters& parameters) {
 
 }  // namespace
 
-SimulatedFleet::SimulatedFleet(const FleetParameters& parameters, std::span<const Vec2> starts)
+SimulatedFleet::SimulatedFleet(const FleetParameters& parameters, std::span<const Vec2> starts,
+                               parallel::Workers* workers)
     : dt_s_(parameters.dt_s),
       positions_over_link_(parameters.positions_over_link),
       confusion_(parameters.confusion, starts.size(),
                  dynamics::RandomStream(parameters.seed, kWholeFleet, kConfusionPurpose)),
-      truth_(starts.size()) {
+      truth_(starts.size()),
+      workers_(workers) {
   drones_.reserve(starts.size());
-  for (std::size_t i = 0; i < starts.size(); ++i) drones_.push_back(make_drone(parameters, i, starts[i]));
-  copy_truth();
+  for (std::size_t i = 0; i < starts.size(); ++i) {
+    drones_.push_back(make_drone(parameters, i, starts[i]));
+    truth_[i] = drones_[i].vehicle.truth();
+  }
+}
+
+template <typename Body>
+void SimulatedFleet::for_each_drone(Body&& body) noexcept {
+  parallel::for_each_part(workers_, size(), kPart, [&](std::size_t first, std::size_t last, std::size_t) {
+    for (std::size_t i = first; i < last; ++i) body(drones_[i], i);
+  });
 }
 
 SimulatedFleet::Drone SimulatedFleet::make_drone(const FleetParameters& parameters, std::size_t number,
@@ -56,10 +70,6 @@ SimulatedFleet::Drone SimulatedFleet::make_drone(const FleetParameters& paramete
           Channel<swarm::DroneOrder>(order_link(parameters), dt_s_, random(kOrderPurpose)),
           Channel<Telemetry>(parameters.link, dt_s_, random(kTelemetryPurpose)),
           Heard{}};
-}
-
-void SimulatedFleet::copy_truth() noexcept {
-  for (std::size_t i = 0; i < drones_.size(); ++i) truth_[i] = drones_[i].vehicle.truth();
 }
 
 void SimulatedFleet::hear(Drone& drone) noexcept {
@@ -84,26 +94,26 @@ void SimulatedFleet::report(const Drone& drone, swarm::DroneObservation& out) co
 void SimulatedFleet::observe(runtime::MissionTime, std::span<swarm::DroneObservation> out) noexcept {
   assert(out.size() == size());
   confusion_.advance(truth_, dt_s_);
-  for (std::size_t i = 0; i < size(); ++i) {
-    Drone& drone = drones_[i];
+  for_each_drone([&](Drone& drone, std::size_t i) {
     drone.tracker.measure(truth_[confusion_.body_of(i)]);
     hear(drone);
     report(drone, out[i]);
-  }
+  });
   ++tick_;
 }
 
 void SimulatedFleet::order(runtime::MissionTime, std::span<const swarm::DroneOrder> orders) noexcept {
   assert(orders.size() == size());
-  for (std::size_t i = 0; i < size(); ++i) {
-    Drone& drone = drones_[i];
+  for_each_drone([&](Drone& drone, std::size_t i) {
     if (const swarm::DroneOrder* const arrived = drone.orders.pass(orders[i])) drone.vehicle.obey(*arrived);
-  }
+  });
 }
 
 void SimulatedFleet::advance(double dt_s) noexcept {
-  for (Drone& drone : drones_) drone.vehicle.advance(dt_s, drone.wind.advance(drone.vehicle.is_airborne(), dt_s));
-  copy_truth();
+  for_each_drone([&](Drone& drone, std::size_t i) {
+    drone.vehicle.advance(dt_s, drone.wind.advance(drone.vehicle.is_airborne(), dt_s));
+    truth_[i] = drone.vehicle.truth();
+  });
 }
 
 void SimulatedFleet::fail(swarm::DroneId drone) noexcept { drones_[drone.index()].vehicle.fail(); }

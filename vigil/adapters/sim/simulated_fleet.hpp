@@ -7,6 +7,7 @@
 #include "vigil/adapters/sim/simulated_tracker.hpp"
 #include "vigil/adapters/sim/simulated_vehicle.hpp"
 #include "vigil/adapters/sim/simulated_wind.hpp"
+#include "vigil/core/parallel/workers.hpp"
 #include "vigil/runtime/fleet.hpp"
 
 namespace vigil::sim {
@@ -25,14 +26,16 @@ struct FleetParameters {
 };
 
 /// Simulated vehicles behind the Fleet port. A tick is observe(), order(), advance(dt_s). Allocates nothing after its
-/// construction. One thread at a time; the same seed gives the same bits, and one drone's luck does not depend on how
-/// many others there are, but for which bodies are confused.
+/// construction. One thread at a time, but for the workers that it is given, who share the drones out among them; the
+/// same seed gives the same bits for any number of them, and one drone's luck does not depend on how many others there
+/// are, but for which bodies are confused.
 ///
 /// Delays need not be whole ticks: an order's way is rounded at once, the whole delay from its sending to the vehicle's
 /// answer to the nearest tick (of a link with jitter, the answer's dead time separately).
 class SimulatedFleet : public runtime::VirtualFleet {
  public:
-  SimulatedFleet(const FleetParameters& parameters, std::span<const Vec2> starts);
+  /// `workers`, where there are any, outlive this.
+  SimulatedFleet(const FleetParameters& parameters, std::span<const Vec2> starts, parallel::Workers* workers = nullptr);
 
   [[nodiscard]] std::size_t size() const noexcept override { return drones_.size(); }
   void observe(runtime::MissionTime now, std::span<swarm::DroneObservation> out) noexcept override;
@@ -72,7 +75,9 @@ class SimulatedFleet : public runtime::VirtualFleet {
   [[nodiscard]] Drone make_drone(const FleetParameters& parameters, std::size_t number, const Vec2& start) const;
   void hear(Drone& drone) noexcept;
   void report(const Drone& drone, swarm::DroneObservation& out) const noexcept;
-  void copy_truth() noexcept;
+  /// Calls body(drone, index) for every drone, part by part.
+  template <typename Body>
+  void for_each_drone(Body&& body) noexcept;
 
   double dt_s_;
   bool positions_over_link_;
@@ -80,6 +85,7 @@ class SimulatedFleet : public runtime::VirtualFleet {
   BodyConfusion confusion_;
   std::vector<runtime::TruthSample> truth_;
   std::uint64_t tick_ = 0;
+  parallel::Workers* workers_;
 };
 
 }  // namespace vigil::sim

@@ -19,8 +19,8 @@ constexpr double kDt = 0.02;
 /// A fleet of `count` drones, one metre apart, and what a controller sees of it.
 class Flight {
  public:
-  explicit Flight(FleetParameters parameters = {}, std::size_t count = 1)
-      : fleet(parameters, starts(count)), observed(count), orders(count) {}
+  explicit Flight(FleetParameters parameters = {}, std::size_t count = 1, parallel::Workers* workers = nullptr)
+      : fleet(parameters, starts(count), workers), observed(count), orders(count) {}
 
   void step() {
     fleet.observe(runtime::MissionTime(0), observed);
@@ -74,6 +74,27 @@ TEST(SimulatedFleet, Take_off_and_landing_take_their_time) {
   EXPECT_EQ(flight.truth().mode, VehicleMode::kLanding);
   flight.run(0.2);
   EXPECT_EQ(flight.truth().mode, VehicleMode::kGrounded);
+}
+
+TEST(SimulatedFleet, Any_number_of_threads_gives_the_same_bits) {
+  FleetParameters parameters;
+  parameters.tracker = {.noise_m = 0.01, .delay_s = 0.06, .jitter_s = 0.04, .dropouts_per_min = 6.0};
+  parameters.confusion = {.swaps_per_h = 3600.0};
+  parameters.link.packets = dynamics::bursty_link(0.1, 3.0, 0.04, 0.04);
+  parameters.wind.gusts = {.sigma = 0.5, .time_s = 2.0};
+  constexpr std::size_t kDrones = 1500;
+  parallel::Workers three(3);
+  Flight alone(parameters, kDrones);
+  Flight shared(parameters, kDrones, &three);
+  for (Flight* const flight : {&alone, &shared}) {
+    flight->ask(Action::kVelocity, {0.3, -0.1});
+    flight->run(1.0);
+  }
+  for (std::size_t i = 0; i < kDrones; ++i) {
+    ASSERT_EQ(shared.fleet.truth()[i].position, alone.fleet.truth()[i].position) << i;
+    ASSERT_EQ(shared.observed[i].position, alone.observed[i].position) << i;
+    ASSERT_EQ(shared.observed[i].link_age_s, alone.observed[i].link_age_s) << i;
+  }
 }
 
 TEST(SimulatedFleet, A_drone_on_the_ground_ignores_velocities) {
