@@ -153,6 +153,7 @@ void Filter::place(std::span<const Body> bodies, parallel::Workers* workers) noe
   });
   Extremes extremes;
   for (std::size_t part = 0; part < parts_of(bodies.size()); ++part) extremes.include(extremes_[part]);
+  are_all_fresh_ = extremes.age_s <= 0.0 && !extremes.is_any_uncontrolled;
   const PairBarrier widest = widest_barrier(parameters_, extremes);
   reach_m_ = std::min(pair_reach(parameters_, widest), range_of(parameters_, widest));
   Body oldest;
@@ -184,7 +185,8 @@ bool Filter::gather_pressing(std::size_t place, std::size_t own, const Body& bod
                        .velocity = body.velocity,
                        .drift_m = parameters_.u_max_m_s * std::max(0.0, body.age_s),
                        .u_nom = u_nom,
-                       .reach_m = reach_m_};
+                       .reach_m = reach_m_,
+                       .are_all_fresh = are_all_fresh_};
   screening.clear();
   grid_.visit_parts(z, reach_m_, [&](std::size_t first, std::size_t last) { screening.add(first, last); });
   pair_screen_.look(columns_, drone, screening);

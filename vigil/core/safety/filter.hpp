@@ -119,6 +119,7 @@ class Filter {
   std::vector<Body> bodies_;
   BodyColumns columns_;
   std::vector<Extremes> extremes_;  ///< of each part of them
+  bool are_all_fresh_ = false;      ///< all are controlled, and were seen just now
   double reach_m_ = 0.0;            ///< no body farther than this from another's point has a row
   double wall_reach_m_ = 0.0;       ///< no wall farther than this from a point has one
 };

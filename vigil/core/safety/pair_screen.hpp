@@ -19,7 +19,8 @@ struct Screened {
   Vec2 velocity = Vec2::Zero();
   double drift_m = 0.0;  ///< how far it may have come since it was seen
   Vec2 u_nom = Vec2::Zero();
-  double reach_m = 0.0;  ///< pairs farther apart have no row
+  double reach_m = 0.0;        ///< pairs farther apart have no row
+  bool are_all_fresh = false;  ///< all bodies are controlled, and were seen just now
 };
 
 /// Which neighbours of one drone matter: work space and result. Whether anything is said at all is in is_sure().
@@ -63,10 +64,9 @@ class Screening {
   alignas(64) std::array<float, kMost> squares_;  ///< of distances
   std::array<std::uint32_t, kMostBlocks> first_;  ///< place of each block
   std::array<std::uint32_t, kMostBlocks> size_;
+  std::array<std::uint32_t, kMostBlocks> marks_;  ///< of each block: who is within range, and who of them presses
   std::array<std::uint32_t, kMost> pressing_;
   std::array<std::uint32_t, kMost> near_;
-  std::array<float, kMost> near_squares_;
-  std::array<float, kMost> near_verdicts_;
   std::size_t blocks_ = 0;
   std::size_t count_ = 0;
   std::size_t near_count_ = 0;
@@ -99,11 +99,15 @@ class PairScreen {
                         Screening& screening) noexcept;
   friend struct ScreenLoops;
 
+  /// Of the barrier of two drones that were seen just now.
+  struct Numbers {
+    float fresh_radius, set_range, beyond;
+    float lag_squared, slope_s, relief_slope_s, gain, per_hold;
+  };
+
   Look look_;
-  pair_formula::Rule rule_;
-  double fresh_radius_m_;  ///< as in PairRows
-  double set_range_m_;
-  double range_beyond_m_;
+  Numbers numbers_{};
+  bool is_paper_ = false;
 };
 
 }  // namespace vigil::safety
