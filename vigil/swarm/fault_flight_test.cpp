@@ -83,6 +83,61 @@ TEST(FaultFlight, A_drone_whose_names_are_right_again_recovers_before_it_goes_on
   EXPECT_EQ(world.activity(0), Activity::kTravelling);
 }
 
+TEST(FaultFlight, A_swap_is_not_believed_of_a_drone_that_is_not_heard_either) {
+  IdealWorld world = crossing_world();
+  for (int i = 0; i < 60; ++i) {
+    std::vector<DroneObservation> told = world.observations;
+    std::swap(told[0].position, told[1].position);
+    if (i > 5 && i < 40) told[0].link_age_s = 2.0;
+    step_told(world, told);
+    for (const std::size_t drone : {0U, 1U}) {
+      const Vec2& real = world.observations[drone].position;
+      ASSERT_LE((world.snapshot.drones[drone].position - real).norm(), 0.1) << "drone " << drone << ", tick " << i;
+    }
+  }
+  world.run(0.1);
+  EXPECT_EQ(world.activity(0), Activity::kRecovering);
+  EXPECT_LE((world.snapshot.drones[0].position - world.observations[0].position).norm(), 0.01);
+}
+
+TEST(FaultFlight, Of_a_drone_that_nobody_steers_a_place_is_believed_once_it_can_have_flown_there) {
+  IdealWorld world = crossing_world();
+  std::vector<DroneObservation> told = world.observations;
+  told[0].link_age_s = 60.0;
+  step_told(world, told);
+  told[0].position += Vec2(0.0, 1.0);
+  int ticks = 0;
+  for (; ticks < 500; ++ticks) {
+    step_told(world, told);
+    if (world.snapshot.drones[0].position == told[0].position) break;
+  }
+  EXPECT_GT(ticks * kDt, 1.0);  // its kind flies 0.6 m/s at most
+  EXPECT_LT(ticks * kDt, 2.0);
+}
+
+/// What was believed of a drone was wrong, and where it cannot be is where it is: the others must not fly through it.
+TEST(FaultFlight, Others_keep_clear_of_where_a_doubted_drone_is_seen) {
+  IdealWorld world(watched(2), {{0.5, 2.5}, {0.6, 0.7}});
+  world.run(0.2);
+  Command go = wish(CommandKind::kGoTo, 1);
+  go.place = {2.4, 0.7};
+  world.step({go});
+  const Vec2 seen(1.5, 0.72);
+  double least = HUGE_VAL;
+  for (int i = 0; i < 1000; ++i) {
+    std::vector<DroneObservation> told = world.observations;
+    told[0].position = seen;
+    step_told(world, told);
+    world.observations[0].position = {0.5, 2.5};
+    least = std::min(least, (world.observations[1].position - seen).norm());
+    for (const safety::HoldingRow& row : world.snapshot.drones[1].filter.holding)
+      ASSERT_TRUE(row.kind != safety::RowKind::kNeighbour || row.index < 2);
+    if (world.snapshot.drones[0].fault.kind == Fault::kNone && i > 10) break;
+  }
+  EXPECT_GE(least, 0.2);
+  EXPECT_LT(least, 0.5);  // it came by
+}
+
 TEST(FaultFlight, A_fault_is_one_event_that_names_it) {
   IdealWorld world = crossing_world();
   std::size_t events = 0;

@@ -30,6 +30,20 @@ bool is_ours(const DroneMemory& drone, VehicleMode mode) {
   }
 }
 
+/// In the air, and not in a pilot's hands: whoever flies it, it is nowhere that its kind cannot have flown to.
+bool is_bound_to_its_reach(const DroneMemory& drone, VehicleMode mode) {
+  if (mode == VehicleMode::kGrounded || mode == VehicleMode::kManual) return false;
+  switch (drone.activity) {
+    case Activity::kNeverSeen:
+    case Activity::kGrounded:
+    case Activity::kAboutToTakeOff:
+    case Activity::kOverridden:
+      return false;
+    default:
+      return true;
+  }
+}
+
 /// Whether somebody here asked for what the vehicle does now.
 bool is_asked_for(const DroneMemory& drone) {
   switch (drone.intent) {
@@ -111,6 +125,7 @@ bool FaultMonitor::take_stream(Watched& drone, const DroneObservation& observed,
     stream.model_at_change = model_place_at(drone, stamp_s);
   }
   stream.newest = observed.position;
+  stream.velocity = velocity_of(observed);
   stream.newest_s = stamp_s;
   const dynamics::FaultBounds& bounds = setup_.parameters.bounds;
   const bool is_repeated = stream.repeats >= kLeastRepeats && stamp_s - stream.changed_s >= bounds.frozen_s;
@@ -134,9 +149,11 @@ bool FaultMonitor::is_settled(const Watched& drone, const Vec2& place, double st
                               const Motion& expected) const noexcept {
   const dynamics::FaultBounds& bounds = setup_.parameters.bounds;
   const double needed_s = bounds.confirm_s + setup_.health.recovery_s;
-  const double drifted_m = bounds.jump_m + bounds.drift_m_s * (stamp_s - drone.measured_s);
+  const double unseen_s = stamp_s - drone.measured_s;
   const bool is_steady = stamp_s - drone.stream.steady_since_s >= needed_s;
-  return is_steady && !drone.other && (place - expected.position).norm() <= drifted_m;
+  if (!is_steady || drone.other) return false;
+  if (!drone.is_ours) return (place - drone.place).norm() <= bounds.jump_m + bounds.reach_m_s * unseen_s;
+  return (place - expected.position).norm() <= bounds.jump_m + bounds.drift_m_s * unseen_s;
 }
 
 bool FaultMonitor::is_credible(const Watched& drone, const Vec2& place, double stamp_s, const Motion& expected,
@@ -157,6 +174,18 @@ void FaultMonitor::doubt(Watched& drone, std::size_t index, const Vec2& place, b
   drone.off_m = (place - drone.place).norm();
 }
 
+std::optional<FaultMonitor::Sighting> FaultMonitor::doubted_sighting(std::size_t drone) const noexcept {
+  const Watched& watched = watched_[drone];
+  if (!watched.is_doubted || watched.report.kind == Fault::kNone) return std::nullopt;
+  const Stream& stream = watched.stream;
+  const double age_s = now_s_ - setup_.dt_s - stream.newest_s;  // look() has moved on
+  const auto is_there = [&](const Watched& other) {
+    return (stream.newest - other.place).norm() <= reach_m(std::abs(stream.newest_s - other.measured_s));
+  };
+  if (watched.other && is_there(watched_[watched.other->index()])) return std::nullopt;
+  return Sighting{{stream.newest, stream.velocity}, age_s};
+}
+
 void FaultMonitor::compare(Watched& drone, const DroneObservation& observed, double stamp_s,
                            const Vec2& model_place) const noexcept {
   const dynamics::FaultBounds& bounds = setup_.parameters.bounds;
@@ -173,45 +202,45 @@ void FaultMonitor::compare(Watched& drone, const DroneObservation& observed, dou
   drone.disagreement = std::exp(-bounds.disagreement_leak_per_s * span_s) * drone.disagreement + told - moved;
 }
 
-void FaultMonitor::believe(Watched& drone, const DroneObservation& observed, double stamp_s, bool is_judged,
+void FaultMonitor::believe(Watched& drone, const DroneObservation& observed, double stamp_s,
                            bool is_elsewhere) const noexcept {
-  if (!is_judged || is_elsewhere) rest_model(drone, velocity_of(observed));
+  if (!drone.is_ours || is_elsewhere) rest_model(drone, velocity_of(observed));
   const Vec2 model_place = model_place_at(drone, stamp_s);
-  if (drone.has_seen && is_judged && !is_elsewhere) compare(drone, observed, stamp_s, model_place);
+  if (drone.has_seen && drone.is_ours && !is_elsewhere) compare(drone, observed, stamp_s, model_place);
   drone.model_place = model_place;
   drone.place = observed.position;
   drone.velocity = velocity_of(observed);
   drone.measured_s = stamp_s;
   drone.has_seen = true;
   drone.is_doubted = false;
+  drone.was_silent = false;
   drone.other.reset();
 }
 
-void FaultMonitor::take_new(std::size_t index, const DroneObservation& observed, double stamp_s, const Motion& expected,
-                            bool is_judged) noexcept {
+void FaultMonitor::take_new(std::size_t index, const DroneObservation& observed, double stamp_s,
+                            const Motion& expected) noexcept {
   Watched& drone = watched_[index];
   const bool has_leapt = take_stream(drone, observed, stamp_s);
   const bool is_repeated = setup_.parameters.bounds.never_repeats && drone.stream.repeats > 0;
-  if (is_judged && (drone.stream.is_frozen || is_repeated)) return;  // nothing is learnt of where it is
-  const bool is_free = !drone.has_seen || !is_judged;
+  if (drone.is_ours && (drone.stream.is_frozen || is_repeated)) return;  // nothing is learnt of where it is
+  const bool is_free = !drone.has_seen || !drone.is_bound;
   if (!is_free && !is_credible(drone, observed.position, stamp_s, expected, has_leapt))
     return doubt(drone, index, observed.position, has_leapt);
-  const bool is_elsewhere =
-      drone.is_doubted && (observed.position - drone.place).norm() > reach_m(stamp_s - drone.measured_s);
-  believe(drone, observed, stamp_s, is_judged, is_elsewhere);
+  const bool is_elsewhere = drone.was_silent || (drone.is_doubted && (observed.position - drone.place).norm() >
+                                                                         reach_m(stamp_s - drone.measured_s));
+  believe(drone, observed, stamp_s, is_elsewhere);
 }
 
-void FaultMonitor::take(std::size_t index, const DroneObservation& observed, const Motion& expected,
-                        bool is_judged) noexcept {
+void FaultMonitor::take(std::size_t index, const DroneObservation& observed, const Motion& expected) noexcept {
   Watched& drone = watched_[index];
   drone.believed = observed;
   if (!is_finite(observed)) return;
   const double stamp_s = now_s_ - observed.age_s;
   const bool is_new = !drone.has_seen || stamp_s > drone.stream.newest_s + 0.5 * setup_.dt_s;
-  if (is_new) take_new(index, observed, stamp_s, expected, is_judged);
+  if (is_new) take_new(index, observed, stamp_s, expected);
   if (drone.is_doubted)
     drone.believed.position.setConstant(std::numeric_limits<double>::quiet_NaN());
-  else if (drone.stream.is_frozen && is_judged)
+  else if (drone.stream.is_frozen && drone.is_ours)
     drone.believed.age_s = now_s_ - drone.stream.changed_s;
 }
 
@@ -246,8 +275,8 @@ void FaultMonitor::watch_mode(Watched& drone, const DroneObservation& observed,
   }
 }
 
-void FaultMonitor::watch_border(Watched& drone, bool is_judged) const noexcept {
-  if (!drone.has_seen || !is_judged) {
+void FaultMonitor::watch_border(Watched& drone) const noexcept {
+  if (!drone.has_seen || !drone.is_ours) {
     drone.is_outside = false;
     return;
   }
@@ -287,11 +316,14 @@ void FaultMonitor::name_fault(Watched& drone) const noexcept {
     report = {};
 }
 
-void FaultMonitor::watch_motion(Watched& drone, double link_age_s, bool is_judged) const noexcept {
+void FaultMonitor::watch_motion(Watched& drone, double link_age_s) const noexcept {
   const bool is_silent = link_age_s > setup_.parameters.bounds.silent_s;
-  if (drone.is_silent && !is_silent) rest_model(drone, drone.velocity);
+  if (drone.is_silent && !is_silent) {
+    rest_model(drone, drone.velocity);
+    drone.was_silent = drone.is_doubted;
+  }
   drone.is_silent = is_silent;
-  if (!is_judged) {
+  if (!drone.is_ours) {
     drone.residual_excess.is_raised = false;
     drone.disagreement_excess.is_raised = false;
   } else if (!is_silent) {
@@ -306,15 +338,14 @@ void FaultMonitor::look(std::span<const DroneObservation> observed, std::span<co
   for (std::size_t i = 0; i < watched_.size(); ++i) {
     Watched& drone = watched_[i];
     watch_mode(drone, observed[i], drones[i]);
-    const bool is_judged = is_ours(drones[i], drone.mode);
+    drone.is_ours = is_ours(drones[i], drone.mode);
+    drone.is_bound = is_bound_to_its_reach(drones[i], drone.mode);
     fly_model(drone, i, flown);
-    take(i, observed[i], expected[i], is_judged);
-    if (!is_judged) {
-      drone.stream.is_frozen = false;
-      drone.is_doubted = false;
-    }
-    watch_motion(drone, observed[i].link_age_s, is_judged);
-    watch_border(drone, is_judged);
+    take(i, observed[i], expected[i]);
+    drone.stream.is_frozen = drone.stream.is_frozen && drone.is_ours;
+    drone.is_doubted = drone.is_doubted && drone.is_bound;
+    watch_motion(drone, observed[i].link_age_s);
+    watch_border(drone);
     name_fault(drone);
   }
   now_s_ += setup_.dt_s;

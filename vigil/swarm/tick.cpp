@@ -55,30 +55,32 @@ bool fits(const CoverageTarget& target, const ergodic::Basis& basis) {
 
 bool are_equal(const field::Segment& one, const field::Segment& other) { return one.a == other.a && one.b == other.b; }
 
-/// Drones that one thread looks after before it asks for more.
-constexpr std::size_t kPart = 512;
+/// As many bodies as the filter may meet: where drones are watched, each may have a second place.
+std::size_t most_bodies(const SwarmParameters& parameters) {
+  return parameters.faults.watches ? 2 * parameters.drones : parameters.drones;
+}
 
 /// Small swarms never meet a second thread.
-std::size_t threads_worth(std::size_t drones) { return drones > kPart ? parallel::kMostThreads : 1; }
+std::size_t threads_worth(std::size_t parts) { return parts > 1 ? parallel::kMostThreads : 1; }
 
 }  // namespace
 
 SwarmState::SwarmState(const SwarmParameters& parameters)
     : parameters_(parameters),
       basis_(parameters.field, parameters.basis_max_index, parameters.basis_smoothness),
-      kernels_(threads_worth(parameters.drones), ergodic::Kernel(basis_)),
+      kernels_(threads_worth(parts_of(parameters.drones)), ergodic::Kernel(basis_)),
       sums_(basis_, parameters.drones),
       statistics_(basis_, parameters.accounting, parameters.memory_s),
       look_ahead_(basis_, look_ahead_parameters(parameters), looks_ahead(parameters) ? parameters.drones : 0),
       goal_seeker_(seeker_parameters(parameters), parameters.drones),
       ways_(way_parameters(parameters), parameters.drones),
-      filter_(parameters.barrier, parameters.field, parameters.drones),
+      filter_(parameters.barrier, parameters.field, most_bodies(parameters)),
       air_(parameters.field, safety::barrier_radius(parameters.barrier), parameters.drones),
       flown_(parameters.drones, parameters.dt_s, longest_prediction_s(parameters)),
       monitor_(watch_setup(parameters), parameters.drones),
       target_(no_target(basis_)),
       drones_(parameters.drones),
-      notes_((parameters.drones + kPart - 1) / kPart),
+      notes_(parts_of(parameters.drones)),
       activities_before_(parameters.drones),
       motions_(parameters.drones),
       seen_ages_(parameters.drones, DroneObservation::kNever),
@@ -94,6 +96,8 @@ SwarmState::SwarmState(const SwarmParameters& parameters)
     drones_[index].last_good.position = parameters.starts[index];
     motions_[index].position = parameters.starts[index];
   }
+  bodies_.reserve(most_bodies(parameters));
+  doubted_.reserve(most_bodies(parameters) - parameters.drones);
   active_.reserve(parameters.drones);
   active_before_.reserve(parameters.drones);
   active_positions_.reserve(parameters.drones);
@@ -122,12 +126,6 @@ Motion SwarmState::next_motion(DroneId drone) const noexcept {
   return flown_.ahead(drone.index(), motions_[drone.index()], parameters_.dt_s, parameters_.barrier.lag_s);
 }
 
-safety::Explanation SwarmState::explain(DroneId drone) const {
-  assert(ticks_ > 0 && drone.index() < drones_.size());
-  safety::Filter filter = filter_;  // its work space is not this state's business
-  return filter.explain(drone.index(), bodies_, target_.no_fly, u_nom_[drone.index()]);
-}
-
 void SwarmState::become_model(double dt_s) {
   parameters_.dt_s = dt_s;
   parameters_.barrier.dt_s = dt_s;
@@ -135,7 +133,7 @@ void SwarmState::become_model(double dt_s) {
   parameters_.observation_delay_s = 0.0;
   look_ahead_.set_tick(dt_s);
   goal_seeker_.set_tick(dt_s);
-  filter_ = safety::Filter(parameters_.barrier, parameters_.field, parameters_.drones);
+  filter_ = safety::Filter(parameters_.barrier, parameters_.field, most_bodies(parameters_));
   flown_ = FlownOrders(parameters_.drones, dt_s, longest_prediction_s(parameters_));
   monitor_ = FaultMonitor({}, 0);
 }
@@ -189,14 +187,6 @@ void SwarmState::take_commands(std::span<const Command> commands, Snapshot& out)
       take_wish(command, out);
     }
   }
-}
-
-template <typename Body>
-void SwarmState::for_each_drone(parallel::Workers* workers, Body&& body) noexcept {
-  parallel::for_each_part(workers, drones_.size(), kPart, [&](std::size_t first, std::size_t last, std::size_t) {
-    PartNote& note = notes_[first / kPart];
-    for (std::size_t index = first; index < last; ++index) body(index, note);
-  });
 }
 
 const DroneObservation& SwarmState::believed(std::size_t index,
@@ -381,60 +371,6 @@ void SwarmState::seek_goals() noexcept {
   travel_u_.resize(travellers_.size());  // within its capacity
   goal_seeker_.steer(travellers_, travel_u_);
   for (std::size_t i = 0; i < travellers_.size(); ++i) u_nom_[travellers_[i].drone] = travel_u_[i];
-}
-
-double SwarmState::assumed_age(const DroneMemory& drone) const noexcept {
-  if (drone.activity == Activity::kNeverSeen) return 0.0;  // it has been told nothing but to stay where it is
-  const bool is_lost = !is_steered(drone.activity);
-  // The paper's barrier knows no age; only a drone that is lost is given more room.
-  if (parameters_.barrier.kind == safety::BarrierKind::kPaper && !is_lost) return 0.0;
-  // Once its position or its link is lost a drone is told to stop, or stops by its own failsafe: it wanders no farther.
-  const double longest = parameters_.health.tracking_timeout_s + parameters_.health.link_timeout_s;
-  const double predicted = parameters_.observation_delay_s;
-  return std::clamp(drone.last_good.age_s - predicted, 0.0, longest);
-}
-
-safety::Body SwarmState::body_of(std::size_t index) const noexcept {
-  const DroneMemory& drone = drones_[index];
-  safety::Body body;
-  body.position = motions_[index].position;
-  body.velocity = motions_[index].velocity;
-  body.age_s = assumed_age(drone);
-  // What a drone that is not heard, or that somebody calls failed, did with the orders on their way to it, nobody
-  // knows.
-  if (drone.activity == Activity::kLinkLost || drone.activity == Activity::kMarkedFailed)
-    body.age_s += (body.position - drone.last_good.position).norm() / parameters_.barrier.u_max_m_s;
-  body.is_controlled = is_steered(drone.activity) || stands_still(drone.activity);
-  // Others clear the air above a drone that is to take off.
-  const bool takes_room = is_airborne(drone, parameters_.health) || wants_up(drone);
-  body.is_obstacle = parameters_.only_active_are_obstacles ? drone.activity == Activity::kActive : takes_room;
-  body.uncooperative_speed_m_s = wandering_speed(drone, parameters_.barrier.u_max_m_s);
-  return body;
-}
-
-void SwarmState::keep_safe(parallel::Workers* workers) noexcept {
-  for_each_drone(workers, [&](std::size_t index, PartNote&) { bodies_[index] = body_of(index); });
-  filter_.run(bodies_, target_.no_fly, u_nom_, u_, reports_, workers);
-}
-
-void SwarmState::sort_air(parallel::Workers* workers) noexcept {
-  const auto place_in_air = [&](std::size_t index) {
-    const Vec2 nowhere = Vec2::Constant(std::numeric_limits<double>::quiet_NaN());
-    return is_airborne(drones_[index], parameters_.health) ? drones_[index].last_good.position : nowhere;
-  };
-  air_.sort(drones_.size(), place_in_air, workers);
-}
-
-bool SwarmState::has_clear_air(std::size_t index) const noexcept {
-  constexpr double kRounding = 1e-6;  // those who clear the air come to rest on the boundary itself
-  const double room = safety::barrier_radius(parameters_.barrier) - kRounding;
-  const Vec2& place = drones_[index].last_good.position;
-  if (!place.allFinite()) return true;
-  bool is_clear = true;
-  air_.visit_near(place, room, [&](std::size_t other) {
-    if (other != index && (drones_[other].last_good.position - place).norm() < room) is_clear = false;
-  });
-  return is_clear;
 }
 
 void SwarmState::write_order(std::size_t index, DroneSnapshot& to) noexcept {

@@ -66,6 +66,10 @@ class SwarmState {
   friend void tick(SwarmState& state, std::span<const DroneObservation> observations, std::span<const Command> commands,
                    Snapshot& out, parallel::Workers* workers) noexcept;
 
+  /// Drones that one thread looks after before it asks for more.
+  static constexpr std::size_t kPart = 512;
+  static constexpr std::size_t parts_of(std::size_t drones) { return (drones + kPart - 1) / kPart; }
+
   /// What one part of the drones comes to.
   struct alignas(64) PartNote {
     std::size_t active = 0;        ///< how many
@@ -95,6 +99,10 @@ class SwarmState {
   void look_ahead() noexcept;
   void seek_goals() noexcept;
   void keep_safe(parallel::Workers* workers) noexcept;
+  void add_doubted_places() noexcept;
+  /// Whose place a body of the filter is; -1 is nobody's.
+  [[nodiscard]] int drone_of(int body) const noexcept;
+  void name_holders(safety::FilterReport& report) const noexcept;
   void write_orders(Snapshot& out, parallel::Workers* workers) noexcept;
   void write_order(std::size_t index, DroneSnapshot& to) noexcept;
   void sort_air(parallel::Workers* workers) noexcept;
@@ -102,6 +110,7 @@ class SwarmState {
   [[nodiscard]] bool has_clear_air(std::size_t index) const noexcept;
   [[nodiscard]] safety::Body body_of(std::size_t index) const noexcept;
   [[nodiscard]] double assumed_age(const DroneMemory& drone) const noexcept;
+  [[nodiscard]] double longest_assumed_age_s() const noexcept;
   [[nodiscard]] bool may_be_flown_to(const Vec2& place) const noexcept;
   [[nodiscard]] guidance::Traveller traveller(std::size_t index) noexcept;
   [[nodiscard]] Vec2 within_walls(const Vec2& place) const noexcept;
@@ -138,7 +147,8 @@ class SwarmState {
   std::vector<double> seen_ages_;  ///< of all drones: their observations' ages in the last tick
   std::vector<guidance::Traveller> travellers_;
   std::vector<Vec2> travel_u_;
-  std::vector<safety::Body> bodies_;
+  std::vector<safety::Body> bodies_;    ///< of all drones; then those of `doubted_`
+  std::vector<std::uint32_t> doubted_;  ///< drones that may be elsewhere, as well
   std::vector<Vec2> u_nom_;
   std::vector<Vec2> u_;
   std::vector<safety::FilterReport> reports_;
@@ -155,5 +165,13 @@ class SwarmState {
 /// threads; fewer than some hundred drones are not worth it and stay with the caller.
 void tick(SwarmState& state, std::span<const DroneObservation> observations, std::span<const Command> commands,
           Snapshot& out, parallel::Workers* workers = nullptr) noexcept;
+
+template <typename Body>
+void SwarmState::for_each_drone(parallel::Workers* workers, Body&& body) noexcept {
+  parallel::for_each_part(workers, drones_.size(), kPart, [&](std::size_t first, std::size_t last, std::size_t) {
+    PartNote& note = notes_[first / kPart];
+    for (std::size_t index = first; index < last; ++index) body(index, note);
+  });
+}
 
 }  // namespace vigil::swarm

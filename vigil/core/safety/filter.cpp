@@ -97,15 +97,16 @@ void Extremes::include(const Extremes& others) noexcept {
 
 void Filter::run(std::span<const Body> bodies, std::span<const field::Segment> no_fly, std::span<const Vec2> u_nom,
                  std::span<Vec2> u, std::span<FilterReport> reports, parallel::Workers* workers) noexcept {
-  assert(bodies.size() <= bodies_.size() && u_nom.size() == bodies.size() && u.size() == bodies.size() &&
-         reports.size() == bodies.size());
+  assert(bodies.size() <= bodies_.size() && u.size() <= bodies.size() && u_nom.size() == u.size() &&
+         reports.size() == u.size());
   place(bodies, workers);
   const std::span<const std::uint32_t> sorted = grid_.sorted();
   parallel::for_each_part(workers, sorted.size(), kPart, [&](std::size_t first, std::size_t last, std::size_t) {
     Desk desk;
     for (std::size_t place = first; place < last; ++place) {
       const std::size_t own = sorted[place];
-      const std::size_t later = sorted[std::min(place + kAhead, last - 1)];
+      if (own >= u.size()) continue;
+      const std::size_t later = std::min<std::size_t>(sorted[std::min(place + kAhead, last - 1)], u.size() - 1);
       send_for(u_nom[later]);
       send_for(u[later]);
       send_for(reports[later]);

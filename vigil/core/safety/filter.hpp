@@ -59,7 +59,8 @@ class Filter {
  public:
   Filter(const BarrierParameters& parameters, const field::Field& field, std::size_t capacity);
 
-  /// Precondition: all spans but `no_fly` have the same length, at most capacity. Bodies may be anything, also NaN.
+  /// The first bodies are steered, as many as there are of u_nom, u and reports; those after them, if any, are only
+  /// kept clear of. Precondition: at most `capacity` bodies. They may be anything, also NaN.
   /// `no_fly` holds the edges of any number of polygons, each polygon's as field::edges() gives them.
   /// u[i] = 0 where bodies[i].is_controlled is false. Every |u[i]| <= u_max and finite. With workers the drones are
   /// shared out among them.

@@ -55,6 +55,19 @@ TEST_P(FilterTest, The_report_says_who_holds_the_drone_and_how_far_it_is) {
   EXPECT_GT(reports_[0].correction_m_s, 0.1);
 }
 
+TEST_P(FilterTest, Bodies_that_nobody_asks_a_velocity_for_are_kept_clear_of_all_the_same) {
+  add(1.5, 1.5);
+  add(1.73, 1.5);
+  const std::array u_nom{Vec2(0.3, 0.0), Vec2::Zero().eval()};
+  run(u_nom);
+  const std::vector<Vec2> of_both = u_;
+  u_.resize(1);
+  reports_.resize(1);
+  filter_.run(bodies_, no_fly_, std::span(u_nom).first(1), u_, reports_);
+  EXPECT_EQ(u_[0], of_both[0]);
+  EXPECT_EQ(reports_[0].holding[0].index, 1);
+}
+
 TEST_P(FilterTest, The_report_says_which_wall_and_which_edge_hold_a_drone) {
   no_fly_ = field::edges({{Vec2(1.0, 1.0), Vec2(2.0, 1.0), Vec2(2.0, 2.0), Vec2(1.0, 2.0)}});
   add(2.81, 0.5);
