@@ -33,6 +33,11 @@ constexpr std::size_t kPart = 512;
 
 std::size_t parts_of(std::size_t count) { return (count + kPart - 1) / kPart; }
 
+/// Nobody can keep R_s from what is as fast as a drone may fly: who tries is driven into others, or a wall.
+bool may_outrun(const BarrierParameters& parameters, const Body& other) {
+  return !other.is_controlled && other.uncooperative_speed_m_s >= parameters.u_max_m_s;
+}
+
 /// The barrier of the slowest, oldest and most wayward pair of such bodies: none of theirs reaches farther.
 PairBarrier widest_barrier(const BarrierParameters& parameters, const Extremes& extremes) {
   Body drone;
@@ -363,7 +368,8 @@ void Filter::gather_lesser_pairs(std::size_t own, const Body& body, const Vec2& 
         if (row) rows.add(*row, {RowKind::kNeighbour, index, distance});
       };
       add_row(margin_barrier(parameters_, other), Priority::kMargin);
-      add_row(bare_separation_barrier(parameters_, other), Priority::kSeparation);
+      add_row(bare_separation_barrier(parameters_, other),
+              may_outrun(parameters_, other) ? Priority::kMargin : Priority::kSeparation);
       add_row(contact_barrier(parameters_, other), Priority::kPhysicalRadius);
     }
   });
