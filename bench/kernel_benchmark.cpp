@@ -10,6 +10,7 @@
 #include "vigil/core/ergodic/kernel.hpp"
 #include "vigil/core/ergodic/literal_kernel.hpp"
 #include "vigil/core/safety/planar_qp.hpp"
+#include "vigil/core/safety/planar_qp_batch.hpp"
 #include "vigil/testing/random_planar_qp.hpp"
 
 namespace vigil {
@@ -92,6 +93,49 @@ void SolverFast(benchmark::State& state) {
   }
 }
 BENCHMARK(SolverFast)->ArgName("rows")->Arg(2)->Arg(8)->Arg(32);
+
+using Batch = safety::PlanarQpBatch;
+
+void put(std::span<const safety::PlanarProblem> problems, Batch& batch) {
+  for (std::size_t lane = 0; lane < Batch::kLanes; ++lane) {
+    batch.begin(lane, problems[lane].u_nom);
+    for (const safety::HalfPlane& row : problems[lane].rows) batch.add(lane, row);
+  }
+}
+
+/// The problems of SolverFast, eight at a time, with and without the time that it takes to put them side by side. All
+/// have one radius.
+void SolverBatch(benchmark::State& state) {
+  const auto problems = barrier_problems(static_cast<std::size_t>(state.range(0)));
+  std::vector<Batch> batches(problems.size() / Batch::kLanes);
+  std::size_t solved = 0;
+  for (std::size_t i = 0; i < batches.size(); ++i) {
+    const auto mine = std::span(problems).subspan(i * Batch::kLanes, Batch::kLanes);
+    put(mine, batches[i]);
+    batches[i].solve(mine[0].radius);
+    for (std::size_t lane = 0; lane < Batch::kLanes; ++lane) {
+      if (!batches[i].is_solved(lane)) continue;
+      ++solved;
+      if (batches[i].solution(lane).u != safety::solve(mine[lane].u_nom, mine[lane].rows, mine[lane].radius).u)
+        return state.SkipWithError("not the answer of one after the other");
+      if (i < 32 && compare(mine[lane], batches[i].solution(lane)) == safety::Agreement::kDifferent)
+        return state.SkipWithError("not the slow solver's answer");
+    }
+  }
+  const bool is_put = state.range(1) != 0;
+  std::size_t next = 0;
+  for (auto _ : state) {
+    const std::size_t i = next++ % batches.size();
+    if (is_put) put(std::span(problems).subspan(i * Batch::kLanes, Batch::kLanes), batches[i]);
+    batches[i].solve(problems[0].radius);
+    benchmark::ClobberMemory();
+  }
+  using benchmark::Counter;
+  state.counters["s_per_problem"] =
+      Counter(static_cast<double>(Batch::kLanes), Counter::kIsIterationInvariantRate | Counter::kInvert);
+  state.counters["solved"] = static_cast<double>(solved) / static_cast<double>(problems.size());
+}
+BENCHMARK(SolverBatch)->ArgNames({"rows", "putting"})->ArgsProduct({{2, 8, 24}, {0, 1}});
 
 void SolverSlow(benchmark::State& state) {
   const auto problems = barrier_problems(static_cast<std::size_t>(state.range(0)));

@@ -28,6 +28,9 @@ void send_for(const Value& value) {
   __builtin_prefetch(&value);
 }
 
+/// So many drones are worth solving their problems together.
+constexpr std::size_t kCrowd = 2 * PlanarQpBatch::kLanes;
+
 /// Drones that one thread steers before it asks for more.
 constexpr std::size_t kPart = 512;
 
@@ -105,9 +108,12 @@ void Filter::run(std::span<const Body> bodies, std::span<const field::Segment> n
   assert(bodies.size() <= bodies_.size() && u.size() <= bodies.size() && u_nom.size() == u.size() &&
          reports.size() == u.size());
   place(bodies, workers);
+  const Task task{no_fly, u_nom, u, reports};
+  const bool is_crowd = u.size() >= kCrowd;
   const std::span<const std::uint32_t> sorted = grid_.sorted();
   parallel::for_each_part(workers, sorted.size(), kPart, [&](std::size_t first, std::size_t last, std::size_t) {
     Desk desk;
+    Together together;
     for (std::size_t place = first; place < last; ++place) {
       const std::size_t own = sorted[place];
       if (own >= u.size()) continue;
@@ -115,14 +121,63 @@ void Filter::run(std::span<const Body> bodies, std::span<const field::Segment> n
       send_for(u_nom[later]);
       send_for(u[later]);
       send_for(reports[later]);
-      Vec2 velocity = Vec2::Zero();
-      FilterReport report;
-      if (bodies_[place].is_controlled)
-        steer(place, own, bodies_[place], no_fly, u_nom[own], Gather::kPressing, velocity, report, desk);
-      u[own] = velocity;
-      reports[own] = report;
+      if (is_crowd)
+        steer_together(place, own, task, desk, together);
+      else
+        steer_alone(place, own, task, desk);
     }
+    finish_together(task, desk, together);
   });
+}
+
+void Filter::steer_alone(std::size_t place, std::size_t own, const Task& task, Desk& desk) const noexcept {
+  Vec2 velocity = Vec2::Zero();
+  FilterReport report;
+  if (bodies_[place].is_controlled)
+    steer(place, own, bodies_[place], task.no_fly, task.u_nom[own], Gather::kPressing, velocity, report, desk);
+  task.u[own] = velocity;
+  task.reports[own] = report;
+}
+
+/// What is not like most has it alone.
+void Filter::steer_together(std::size_t place, std::size_t own, const Task& task, Desk& desk,
+                            Together& together) const noexcept {
+  const Body& body = bodies_[place];
+  const Vec2 z = point_of(body);
+  const Vec2& u_nom = task.u_nom[own];
+  const bool is_usable = body.is_controlled && is_finite(body) && z.allFinite() && u_nom.allFinite();
+  Together::Drone& drone = together.drones[together.count];
+  desk.rows.clear();
+  drone.report = {};
+  const bool is_gathered = is_usable && gather_pressing(place, own, body, z, task.no_fly, u_nom, drone.report, desk);
+  const std::span<const HalfPlane> rows = desk.rows.half_planes();
+  if (!is_gathered || rows.size() > PlanarQpBatch::kMostRows) return steer_alone(place, own, task, desk);
+  drone.place = place;
+  drone.own = own;
+  drone.rows = rows.size();
+  std::ranges::copy(desk.rows.whats(), drone.whats.begin());
+  together.problems.begin(together.count, u_nom);
+  for (const HalfPlane& row : rows) together.problems.add(together.count, row);
+  if (++together.count == PlanarQpBatch::kLanes) finish_together(task, desk, together);
+}
+
+void Filter::finish_together(const Task& task, Desk& desk, Together& together) const noexcept {
+  if (together.count == 0) return;
+  for (std::size_t lane = together.count; lane < PlanarQpBatch::kLanes; ++lane)
+    together.problems.begin(lane, Vec2::Zero());
+  together.problems.solve(parameters_.u_max_m_s);
+  for (std::size_t lane = 0; lane < together.count; ++lane) {
+    Together::Drone& drone = together.drones[lane];
+    if (!together.problems.is_solved(lane)) {
+      steer_alone(drone.place, drone.own, task, desk);
+      continue;
+    }
+    const PlanarQpSolution solution = together.problems.solution(lane);
+    write_report(solution, task.u_nom[drone.own], std::span(drone.whats).first(drone.rows), drone.report);
+    task.u[drone.own] = solution.u;
+    task.reports[drone.own] = drone.report;
+  }
+  together.count = 0;
 }
 
 Explanation Filter::explain(std::size_t own, std::span<const Body> bodies, std::span<const field::Segment> no_fly,
@@ -253,18 +308,18 @@ void Filter::steer(std::size_t place, std::size_t own, const Body& body, std::sp
     solution = solve(u_nom, rows.half_planes(), parameters_.u_max_m_s);
   }
   u = solution.u;
-  write_report(solution, u_nom, rows, report);
+  report.crowded = rows.is_crowded();
+  write_report(solution, u_nom, rows.whats(), report);
 }
 
-void Filter::write_report(const PlanarQpSolution& solution, const Vec2& u_nom, const RowSet& rows,
+void Filter::write_report(const PlanarQpSolution& solution, const Vec2& u_nom, std::span<const HoldingRow> whats,
                           FilterReport& report) const noexcept {
   for (const int row : solution.active) {
     if (row < 0) continue;
-    report.holding[static_cast<std::size_t>(report.holding_count)] = rows.what(static_cast<std::size_t>(row));
+    report.holding[static_cast<std::size_t>(report.holding_count)] = whats[static_cast<std::size_t>(row)];
     ++report.holding_count;
   }
   report.speed_limited = solution.on_disk;
-  report.crowded = rows.is_crowded();
   const auto margin = static_cast<std::size_t>(Priority::kMargin);
   for (std::size_t priority = 0; priority < margin; ++priority)
     report.violation_m_s = std::max(report.violation_m_s, solution.violation[priority]);

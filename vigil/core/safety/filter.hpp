@@ -14,6 +14,7 @@
 #include "vigil/core/safety/pair_rows.hpp"
 #include "vigil/core/safety/pair_screen.hpp"
 #include "vigil/core/safety/planar_qp.hpp"
+#include "vigil/core/safety/planar_qp_batch.hpp"
 #include "vigil/core/safety/row_set.hpp"
 
 namespace vigil::safety {
@@ -85,10 +86,36 @@ class Filter {
     double nearest_m = 0.0;
   };
 
+  /// What is given to run(), beside bodies.
+  struct Task {
+    std::span<const field::Segment> no_fly;
+    std::span<const Vec2> u_nom;
+    std::span<Vec2> u;
+    std::span<FilterReport> reports;
+  };
+
+  /// Drones whose problems are solved together.
+  struct Together {
+    PlanarQpBatch problems;
+    struct Drone {
+      std::size_t place = 0;
+      std::size_t own = 0;
+      FilterReport report;
+      std::array<HoldingRow, PlanarQpBatch::kMostRows> whats;  ///< of its rows
+      std::size_t rows = 0;
+    };
+    std::array<Drone, PlanarQpBatch::kLanes> drones;
+    std::size_t count = 0;
+  };
+
   /// Which rows of neighbours are gathered: those that may hold the drone, or all.
   enum class Gather : std::uint8_t { kPressing, kAll };
 
   void place(std::span<const Body> bodies, parallel::Workers* workers) noexcept;
+  void steer_alone(std::size_t place, std::size_t own, const Task& task, Desk& desk) const noexcept;
+  void steer_together(std::size_t place, std::size_t own, const Task& task, Desk& desk,
+                      Together& together) const noexcept;
+  void finish_together(const Task& task, Desk& desk, Together& together) const noexcept;
   [[nodiscard]] Vec2 point_of(const Body& body) const noexcept;
   void steer(std::size_t place, std::size_t own, const Body& body, std::span<const field::Segment> no_fly,
              const Vec2& u_nom, Gather gather, Vec2& u, FilterReport& report, Desk& desk) const noexcept;
@@ -107,7 +134,7 @@ class Filter {
                     Priority priority, RowSet& rows) const noexcept;
   void gather_ways_out(const Vec2& z, const Body& body, std::span<const field::Segment> no_fly,
                        RowSet& rows) const noexcept;
-  void write_report(const PlanarQpSolution& solution, const Vec2& u_nom, const RowSet& rows,
+  void write_report(const PlanarQpSolution& solution, const Vec2& u_nom, std::span<const HoldingRow> whats,
                     FilterReport& report) const noexcept;
 
   BarrierParameters parameters_;

@@ -5,14 +5,15 @@
 #include <cmath>
 #include <limits>
 
+#include "vigil/core/safety/planar_qp_arithmetic.hpp"
+
 namespace vigil::safety {
 namespace {
 
-/// Some rounding errors: what separates a row that holds exactly from one that is broken, relative to the numbers in
-/// it.
-constexpr double kRounding = 16.0 * std::numeric_limits<double>::epsilon();
-/// Rows that differ by no more than this in direction are parallel but for rounding.
-constexpr double kParallel = 1e-14;
+using planar_qp::kParallel;
+using planar_qp::kRounding;
+using planar_qp::kUnit;
+
 /// Data beyond this is cut down to it, so that squares stay finite.
 constexpr double kLargest = 1e100;
 constexpr double kSmallest = 1e-100;  ///< a smaller radius is 0
@@ -34,6 +35,8 @@ bool broken(const HalfPlane& row, const Vec2& u) {
 
 /// The row with a unit normal; a zero normal stays as it is.
 HalfPlane normalised(const HalfPlane& row) {
+  if (std::abs(dot(row.normal, row.normal) - 1.0) <= kUnit)
+    return {row.normal, std::clamp(row.offset, -kLargest, kLargest), row.priority};
   const double largest = row.normal.cwiseAbs().maxCoeff();
   if (!(largest > 0.0)) return row;
   const Vec2 direction = row.normal / largest;  // first, so that no square under- or overflows
@@ -76,45 +79,100 @@ struct Chord {
   [[nodiscard]] double clamp(double t) const { return std::clamp(t, -half, half); }
 };
 
-/// The point of line `i` closest to u_nom that satisfies the rows before it: a problem in one variable.
-Projection project_on_line(const Vec2& u_nom, std::span<const HalfPlane> rows, std::size_t i, double radius) {
-  Projection failure;
-  failure.failed = static_cast<int>(i);
-  const HalfPlane line = normalised(rows[i]);
-  const Chord chord(line, radius);
-  const double t_nom = dot(chord.direction, u_nom);
-  double t = chord.clamp(t_nom);
-  Projection best{chord.at(t), static_cast<int>(i), -1, t != t_nom, -1};
-  if (broken(line, best.u)) return failure;  // also where the normal is zero
+/// A row's line, and its point closest to u_nom that satisfies some rows: a problem in one variable.
+class Line {
+ public:
+  Line(const Vec2& u_nom, std::span<const HalfPlane> rows, std::size_t i, double radius)
+      : rows_(rows), i_(i), line_(normalised(rows[i])), chord_(line_, radius) {
+    const double t_nom = dot(chord_.direction, u_nom);
+    const double t = chord_.clamp(t_nom);
+    best_ = {chord_.at(t), static_cast<int>(i), -1, t != t_nom, -1};
+    is_empty_ = broken(line_, best_.u);  // also where the normal is zero
+  }
 
-  std::size_t last_moved = 0;
-  for (std::size_t j = 0; j < i; ++j) {
-    if (!broken(rows[j], best.u)) continue;
-    const double slope = dot(rows[j].normal, chord.direction);
-    if (std::abs(slope) <= kParallel * size(rows[j].normal)) return failure;
+  /// Moves on to where row j is satisfied.
+  void satisfy(std::size_t j) {
+    const HalfPlane& row = rows_[j];
+    if (is_empty_ || !broken(row, best_.u)) return;
+    const double slope = dot(row.normal, chord_.direction);
+    is_empty_ = std::abs(slope) <= kParallel * size(row.normal);
+    if (is_empty_) return;
     // A row that is nearly parallel cuts the line where rounding says: better a little too late than far too early.
-    const double wanted = (gap(rows[j], chord.base) - 0.5 * rounding(rows[j], chord.base)) / slope;
-    t = chord.clamp(wanted);
-    best.u = chord.at(t);
-    best.on_disk = t != wanted;
-    best.end = best.on_disk ? -1 : static_cast<int>(j);
-    last_moved = j + 1;
+    const double wanted = (gap(row, chord_.base) - 0.5 * rounding(row, chord_.base)) / slope;
+    const double t = chord_.clamp(wanted);
+    best_.u = chord_.at(t);
+    best_.on_disk = t != wanted;
+    best_.end = best_.on_disk ? -1 : static_cast<int>(j);
   }
-  for (std::size_t j = 0; j < last_moved; ++j) {
-    if (broken(rows[j], best.u)) return failure;
+
+  void check(std::size_t j) { is_empty_ = is_empty_ || broken(rows_[j], best_.u); }
+
+  [[nodiscard]] Projection best() const {
+    if (!is_empty_) return best_;
+    Projection failure;
+    failure.failed = static_cast<int>(i_);
+    return failure;
   }
+
+ private:
+  std::span<const HalfPlane> rows_;
+  std::size_t i_;
+  HalfPlane line_;
+  Chord chord_;
+  Projection best_;
+  bool is_empty_ = false;
+};
+
+Projection clipped_projection(const Vec2& u_nom, double radius) {
+  Projection best;
+  best.u = clipped(u_nom, radius);
+  best.on_disk = dot(u_nom, u_nom) > radius * radius;
   return best;
 }
 
 /// Row by row: where the best point so far breaks a row, the best point with that row lies on the row's line.
 Projection project(const Vec2& u_nom, std::span<const HalfPlane> rows, double radius) {
-  Projection best;
-  best.u = clipped(u_nom, radius);
-  best.on_disk = dot(u_nom, u_nom) > radius * radius;
+  Projection best = clipped_projection(u_nom, radius);
   for (std::size_t i = 0; i < rows.size(); ++i) {
     if (!broken(rows[i], best.u)) continue;
-    best = project_on_line(u_nom, rows, i, radius);
+    Line line(u_nom, rows, i, radius);
+    for (std::size_t j = 0; j < i; ++j) line.satisfy(j);
+    for (std::size_t j = 0; j < i; ++j) line.check(j);
+    best = line.best();
     if (best.failed >= 0) break;
+  }
+  return best;
+}
+
+/// The row that u breaks most; rows.size() for none.
+std::size_t worst_row(std::span<const HalfPlane> rows, const Vec2& u) {
+  std::size_t worst = rows.size();
+  double largest = 0.0;
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    const double g = gap(rows[i], u);
+    if (!(g > largest && g > rounding(rows[i], u))) continue;
+    largest = g;
+    worst = i;
+  }
+  return worst;
+}
+
+/// The same, beginning with the row that is broken most: it often leaves no other to be broken.
+Projection project_from_worst(const Vec2& u_nom, std::span<const HalfPlane> rows, double radius) {
+  Projection best = clipped_projection(u_nom, radius);
+  const std::size_t first = worst_row(rows, best.u);
+  if (first == rows.size()) return best;
+  best = Line(u_nom, rows, first, radius).best();
+  for (std::size_t i = 0; i < rows.size() && best.failed < 0; ++i) {
+    if (i == first || !broken(rows[i], best.u)) continue;
+    Line line(u_nom, rows, i, radius);
+    line.satisfy(first);
+    for (std::size_t j = 0; j < i; ++j)
+      if (j != first) line.satisfy(j);
+    line.check(first);
+    for (std::size_t j = 0; j < i; ++j)
+      if (j != first) line.check(j);
+    best = line.best();
   }
   return best;
 }
@@ -309,7 +367,7 @@ PlanarQpSolution solve(const Vec2& u_nom, std::span<const HalfPlane> rows, doubl
   assert(rows.size() <= kMaxRows);
   const Vec2 nominal = within_largest(u_nom);
   const double speed = radius > kSmallest ? std::min(radius, kLargest) : 0.0;
-  const Projection best = project(nominal, rows, speed);
+  const Projection best = project_from_worst(nominal, rows, speed);
   if (best.failed >= 0) return Relaxation(nominal, rows, speed).solution();
   PlanarQpSolution result;
   result.u = clipped(best.u, speed);

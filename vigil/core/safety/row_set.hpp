@@ -58,6 +58,7 @@ class RowSet {
 
   [[nodiscard]] std::span<const HalfPlane> half_planes() const { return std::span(half_planes_).first(count_); }
   [[nodiscard]] const HoldingRow& what(std::size_t row) const { return whats_[row]; }
+  [[nodiscard]] std::span<const HoldingRow> whats() const { return std::span(whats_).first(count_); }
   /// Whether some had to be left out.
   [[nodiscard]] bool is_crowded() const { return is_crowded_; }
 
