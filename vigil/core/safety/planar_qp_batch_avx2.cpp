@@ -65,6 +65,9 @@ Numbers256 root(const Numbers256& a) { return {_mm256_sqrt_pd(a.low), _mm256_sqr
 Marks256 is_less(const Numbers256& a, const Numbers256& b) {
   return {_mm256_cmp_pd(a.low, b.low, _CMP_LT_OQ), _mm256_cmp_pd(a.high, b.high, _CMP_LT_OQ)};
 }
+Marks256 differ(const Numbers256& a, const Numbers256& b) {
+  return {_mm256_cmp_pd(a.low, b.low, _CMP_NEQ_UQ), _mm256_cmp_pd(a.high, b.high, _CMP_NEQ_UQ)};
+}
 Numbers256 chosen(const Marks256& which, const Numbers256& a, const Numbers256& b) {
   return {_mm256_blendv_pd(b.low, a.low, which.low), _mm256_blendv_pd(b.high, a.high, which.high)};
 }

@@ -34,6 +34,7 @@ Numbers512 operator-(Numbers512 a) { return {_mm512_xor_pd(a.lanes, _mm512_set1_
 Numbers512 magnitude(Numbers512 a) { return {_mm512_abs_pd(a.lanes)}; }
 Numbers512 root(Numbers512 a) { return {_mm512_sqrt_pd(a.lanes)}; }
 Marks512 is_less(Numbers512 a, Numbers512 b) { return {_mm512_cmp_pd_mask(a.lanes, b.lanes, _CMP_LT_OQ)}; }
+Marks512 differ(Numbers512 a, Numbers512 b) { return {_mm512_cmp_pd_mask(a.lanes, b.lanes, _CMP_NEQ_UQ)}; }
 Numbers512 chosen(Marks512 which, Numbers512 a, Numbers512 b) {
   return {_mm512_mask_blend_pd(which.lanes, b.lanes, a.lanes)};
 }

@@ -64,6 +64,11 @@ EightMarks is_less(const EightNumbers& a, const EightNumbers& b) {
   for (std::size_t i = 0; i < kLanes; ++i) lanes |= (a.lanes[i] < b.lanes[i] ? 1u : 0u) << i;
   return {static_cast<std::uint8_t>(lanes)};
 }
+EightMarks differ(const EightNumbers& a, const EightNumbers& b) {
+  unsigned lanes = 0;
+  for (std::size_t i = 0; i < kLanes; ++i) lanes |= (a.lanes[i] != b.lanes[i] ? 1u : 0u) << i;
+  return {static_cast<std::uint8_t>(lanes)};
+}
 EightNumbers chosen(EightMarks which, const EightNumbers& a, const EightNumbers& b) {
   return EightNumbers::of([&](std::size_t i) { return ((which.lanes >> i) & 1u) != 0 ? a.lanes[i] : b.lanes[i]; });
 }

@@ -5,8 +5,8 @@
 // those of planar_qp.cpp in the same order, each rounded by itself.
 //
 // `Numbers` are eight numbers: all(), load(), store(), the operators + - * /, magnitude(), greatest(), root(). `Marks`
-// say yes or no to each lane: is_less(a, b), false where one is not a number; & | and without(a, b), which is a and not
-// b; any(), bits(); chosen(marks, a, b) is a where marked, b elsewhere.
+// say yes or no to each lane: is_less(a, b), false where one is not a number; differ(a, b), true there; & | and
+// without(a, b), which is a and not b; any(), bits(); chosen(marks, a, b) is a where marked, b elsewhere.
 
 #include "vigil/core/safety/planar_qp_arithmetic.hpp"
 #include "vigil/core/safety/planar_qp_columns.hpp"
@@ -17,6 +17,9 @@ namespace {
 /// Numbers beyond these are for the solver that takes its time.
 constexpr double kHuge = 1e30;
 constexpr double kTiny = 1e-30;
+
+constexpr double kNumber[PlanarQpColumns::kMostRows] = {0,  1,  2,  3,  4,  5,  6,  7,  8,  9,  10, 11,
+                                                        12, 13, 14, 15, 16, 17, 18, 19, 20, 21, 22, 23};
 
 template <typename Numbers>
 struct LanesSolver {
@@ -45,7 +48,7 @@ struct LanesSolver {
   };
 
   static Numbers none() { return Numbers::all(-1.0); }
-  static Numbers number(std::size_t row) { return Numbers::all(static_cast<double>(row)); }
+  static Numbers number(std::size_t row) { return Numbers::all(kNumber[row]); }
 
   static Row sized(const Numbers& x, const Numbers& y, const Numbers& offset) {
     return {x, y, offset, magnitude(x) + magnitude(y)};
@@ -117,7 +120,7 @@ struct LanesSolver {
       const Numbers t = clamp(t_nom, -chord.half, chord.half);
       u = at(chord, t);
       u_size = size(u);
-      on_disk = is_less(t, t_nom) | is_less(t_nom, t);
+      on_disk = differ(t, t_nom);
       is_failed = broken(unit, u, u_size);
     }
 
@@ -130,7 +133,7 @@ struct LanesSolver {
       const Numbers wanted = (gap(row, chord.base) - Numbers::all(0.5) * rounding(row, base_size)) / slope;
       const Numbers t = clamp(wanted, -chord.half, chord.half);
       const Points there = at(chord, t);
-      const Marks is_at_end = is_less(t, wanted) | is_less(wanted, t);
+      const Marks is_at_end = differ(t, wanted);
       u = {chosen(moves, there.x, u.x), chosen(moves, there.y, u.y)};
       u_size = size(u);
       on_disk = (moves & is_at_end) | without(on_disk, moves);
@@ -172,8 +175,7 @@ struct LanesSolver {
     Row first_row = sized(worst, worst, worst);
     for (std::size_t i = 0; i < count; ++i) {
       const Row row = row_of(problems, i);
-      plain = plain & is_less(magnitude(row.offset), huge) & is_less(row.size, huge) &
-              is_less(Numbers::all(kTiny), row.size);
+      plain = plain & is_less(magnitude(row.offset) + row.size, huge) & is_less(Numbers::all(kTiny), row.size);
       const Numbers g = gap(row, state.u);
       const Marks is_worse = is_less(greatest(worst, rounding(row, u_size)), g);
       worst = chosen(is_worse, g, worst);
@@ -194,8 +196,8 @@ struct LanesSolver {
       for (std::size_t i = 0; i < count; ++i) {
         const Row row = row_of(problems, i);
         const Numbers index = number(i);
-        const Marks is_other = is_less(index, first) | is_less(first, index);
-        const Marks is_next = without(going & is_other & is_less(done, index) & broken(row, state.u, u_size), is_found);
+        const Marks is_next =
+            without(going & differ(index, first) & is_less(done, index) & broken(row, state.u, u_size), is_found);
         if (!any(is_next)) continue;
         is_found = is_found | is_next;
         next = chosen(is_next, index, next);
@@ -226,7 +228,7 @@ struct LanesSolver {
   /// Those of `going` in which row i comes before the next, and is not the first.
   static Marks earlier(const Marks& going, std::size_t i, const Numbers& first, const Numbers& next) {
     const Numbers index = number(i);
-    return going & is_less(index, next) & (is_less(index, first) | is_less(first, index));
+    return going & is_less(index, next) & differ(index, first);
   }
 };
 
