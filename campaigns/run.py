@@ -64,6 +64,21 @@ CAMPAIGNS = (
         )
         for drones in (3, 10)
     ),
+    # Four hours with wind, batteries of any age and a station that fails, at any time.
+    Campaign(
+        "charging",
+        "wildfire_day.yaml",
+        1000,
+        (
+            "seed",
+            "simulation.battery.health=0.7..1",
+            "simulation.wind.gust_m_s=0..1.5",
+            "simulation.wind.mean_m_s=[0,0]|[4,1]|[-4,2]|[0,-5]|[3,-3]",
+            "simulation.events[0].at_s=100..14000",
+            "simulation.events[0].station=west|east",
+        ),
+        ("simulation.duration_s=14400", "simulation.events=[{at_s: 5000, do: fail_station, station: west}]"),
+    ),
 )
 
 

@@ -88,6 +88,7 @@ sim::FleetParameters fleet_parameters(const runtime::Mission& mission) {
           .dt_s = dt_s,
           .seed = simulation.seed,
           .starts_flying = simulation.start == runtime::StartState::kFlying,
+          .pads = runtime::charging_pads(mission),
           .stays_down = {}};
 }
 

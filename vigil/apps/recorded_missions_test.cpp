@@ -65,6 +65,13 @@ TEST(RecordedMissions, Vehicles_over_a_lossy_link_come_out_again) {
   }
 }
 
+TEST(RecordedMissions, Drones_that_charge_in_turns_at_a_station_that_fails_come_out_again) {
+  expect_the_same_again(runtime::load_mission(
+      VIGIL_MISSIONS_DIR "/wildfire_day.yaml",
+      std::vector<runtime::Override>{{"simulation.duration_s", "2500"},
+                                     {"simulation.events", "[{at_s: 800, do: fail_station, station: west}]"}}));
+}
+
 TEST(RecordedMissions, Runs_of_a_campaign_full_of_failures_come_out_again) {
   runtime::CampaignPlan plan;
   plan.mission_yaml = runtime::mission_yaml(mission_named("vehicles/px4", "60"));

@@ -21,7 +21,7 @@ struct Figure {
   WorstIs worst_is;
 };
 
-constexpr std::array<Figure, 9> kFigures{{
+constexpr std::array<Figure, 11> kFigures{{
     {"metric_percent_last", "metric at the end, %", "/metric/percent_last", WorstIs::kMost},
     {"min_separation_airborne_m", "least separation, airborne, m", "/min_separation_m/airborne", WorstIs::kLeast},
     {"min_separation_active_m", "least separation, active, m", "/min_separation_m/active", WorstIs::kLeast},
@@ -30,19 +30,22 @@ constexpr std::array<Figure, 9> kFigures{{
     {"max_speed_m_s", "highest speed, m/s", "/max_speed_m_s", WorstIs::kMost},
     {"worst_revisit_s", "longest time unseen, s", "/worst_revisit_s", WorstIs::kMost},
     {"fallback_ticks", "ticks with fall-back", "/fallback_ticks", WorstIs::kMost},
+    {"least_charge", "least charge in the air", "/energy/least_charge", WorstIs::kLeast},
+    {"most_away", "most drones away to charge", "/energy/most_away", WorstIs::kMost},
     {"goals_per_drone_minute", "goals per drone and minute", "/goals_per_drone_minute", WorstIs::kLeast},
 }};
 
 struct RuleEntry {
   std::string_view key;    ///< in the campaign's summary
-  std::string_view count;  ///< in a run's summary
+  std::string_view count;  ///< JSON pointer into a run's summary; nothing there is none
 };
 
 /// What a run must not do; the order is that of CampaignTally::broken_.
-constexpr std::array<RuleEntry, 4> kRules{{{"separation", "separation_violations"},
-                                           {"wall", "wall_violations"},
-                                           {"no_fly", "no_fly_violations"},
-                                           {"speed", "speed_violations"}}};
+constexpr std::array<RuleEntry, 5> kRules{{{"separation", "/separation_violations"},
+                                           {"wall", "/wall_violations"},
+                                           {"no_fly", "/no_fly_violations"},
+                                           {"speed", "/speed_violations"},
+                                           {"empty", "/energy/ran_empty"}}};
 
 /// So many of the runs with a violation are named.
 constexpr std::size_t kMostNamed = 100;
@@ -96,8 +99,10 @@ void CampaignTally::add_figure(std::size_t figure, double value, const RunRecord
 void CampaignTally::add_violations(const RunRecord& record) {
   bool is_any = false;
   for (std::size_t i = 0; i < kRules.size(); ++i) {
-    const auto found = record.summary.find(kRules.at(i).count);
-    if (found == record.summary.end() || !found->is_number() || found->get<double>() <= 0.0) continue;
+    const nlohmann::json::json_pointer count{std::string(kRules.at(i).count)};
+    if (!record.summary.contains(count)) continue;
+    const nlohmann::json& found = record.summary.at(count);
+    if (!found.is_number() || found.get<double>() <= 0.0) continue;
     ++broken_[i];
     is_any = true;
   }
@@ -133,8 +138,8 @@ std::string CampaignTally::table() const {
                         column.worst->value, column.worst->run);
   }
   text += fmt::format("  runs with a violation           {:>12} of {}", violating_runs(), runs_);
-  text += fmt::format(" (separation {}, wall {}, no-fly {}, speed {}; by ground truth)\n", broken_[0], broken_[1],
-                      broken_[2], broken_[3]);
+  text += fmt::format(" (separation {}, wall {}, no-fly {}, speed {}, empty battery {}; by ground truth)\n", broken_[0],
+                      broken_[1], broken_[2], broken_[3], broken_[4]);
   return text;
 }
 

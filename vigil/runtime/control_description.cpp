@@ -183,6 +183,12 @@ void describe(DescriptionVisitor& visitor, HealthSection& health) {
                   .meaning = "the height below which a drone is down and no obstacle any more",
                   .unit = "m"},
                  {0.0, 100.0}, health.landed_height_m);
+  visitor.number({.name = "endurance_s",
+                  .meaning = "about how long a full battery keeps a drone in the air: where drones are charged by "
+                             "stations, what is believed of a battery until it has been watched",
+                  .unit = "s",
+                  .default_text = "that of the simulated battery when it is new"},
+                 {10.0, 86'400.0}, health.endurance_s);
 }
 
 void describe(DescriptionVisitor& visitor, SensorSection& sensor) {

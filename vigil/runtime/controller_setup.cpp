@@ -1,5 +1,6 @@
 #include "vigil/runtime/controller_setup.hpp"
 
+#include "vigil/core/dynamics/battery.hpp"
 #include "vigil/core/field/density.hpp"
 #include "vigil/runtime/fault_setup.hpp"
 #include "vigil/runtime/mission_setup.hpp"
@@ -13,6 +14,27 @@ swarm::HealthParameters health_parameters(const HealthSection& health) {
           .battery_reserve = health.battery_reserve,
           .recovery_s = health.recovery_s,
           .landed_height_m = health.landed_height_m};
+}
+
+/// What a full battery is worth, as far as the mission says.
+std::optional<double> endurance_s(const Mission& mission) {
+  if (mission.health.endurance_s) return mission.health.endurance_s;
+  if (!mission.simulation.battery) return std::nullopt;
+  if (mission.simulation.battery->endurance_s) return mission.simulation.battery->endurance_s;
+  const bool is_outdoor = mission.simulation.vehicle.model == dynamics::VehicleKind::kArduCopter ||
+                          mission.simulation.vehicle.model == dynamics::VehicleKind::kPx4;
+  return is_outdoor ? dynamics::endurance_s(dynamics::outdoor_battery(), dynamics::kOutdoorHoverPower)
+                    : dynamics::endurance_s(dynamics::crazyflie_battery(), dynamics::kCrazyflieHoverPower);
+}
+
+swarm::RechargeParameters recharge_parameters(const Mission& mission) {
+  swarm::RechargeParameters parameters;
+  if (mission.stations.empty()) return parameters;
+  parameters.pads = charging_pads(mission);
+  parameters.take_off_s = mission.simulation.vehicle.take_off_s;
+  parameters.landing_s = mission.simulation.vehicle.landing_s;
+  parameters.endurance_s = endurance_s(mission);
+  return parameters;
 }
 
 /// A vehicle that never flies faster than it is ordered to: none of the recorded autopilots, and nobody in gusts.
@@ -42,6 +64,7 @@ swarm::SwarmParameters swarm_parameters(const Mission& mission, swarm::Intent fi
   parameters.only_active_are_obstacles = mission.safety.obstacles == Obstacles::kActiveOnly;
   parameters.health = health_parameters(mission.health);
   parameters.faults = fault_parameters(mission);
+  parameters.recharge = recharge_parameters(mission);
   parameters.first_intent = first_intent;
   const field::WorldFrame frame = world_frame(mission);
   for (const DroneEntry& drone : mission.drones) parameters.starts.push_back(frame.point_to_field(drone.start_m));

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <map>
 #include <set>
 #include <string_view>
@@ -58,6 +59,9 @@ class Course {
         return check_name(event);
       case EventKind::kStartAfresh:
         return;
+      case EventKind::kFailStation:
+      case EventKind::kRepairStation:
+        return check_station(event);
     }
   }
 
@@ -89,6 +93,13 @@ class Course {
     if (event.drone == "all" || drones_.contains(event.drone)) return;
     refuse("drone", "is no drone of this mission",
            fmt::format("must be all or an id, such as {}", mission_.drones.front().id), "check the id");
+  }
+
+  void check_station(const EventEntry& event) const {
+    const bool is_known = std::ranges::any_of(
+        mission_.stations, [&](const StationEntry& station) { return station.name == event.station; });
+    if (is_known) return;
+    refuse("station", "is no station of this mission", "must be the name of one of its stations", "check the name");
   }
 
   void check_two_drones(const EventEntry& event) const {

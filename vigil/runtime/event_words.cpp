@@ -153,6 +153,12 @@ EventWords words_for(std::string_view id, Activity after, const swarm::DroneSnap
     case Activity::kTravelling:
       return {Severity::kInfo, fmt::format("{} flies to a place", id), "it waits there; " + lost,
               "resume sends it back to coverage"};
+    case Activity::kReturning:
+      return {Severity::kInfo,
+              fmt::format("{} flies to a pad to be charged, battery at {}", id, battery_in_words(drone)), lost, ""};
+    case Activity::kCharging:
+      return {Severity::kInfo, fmt::format("{} is being charged, battery at {}", id, battery_in_words(drone)), lost,
+              "it rises by itself when it is charged; land or hold takes that back"};
     case Activity::kNotFollowing:
       return fault_words(id, {.kind = swarm::Fault::kNotFollowing}, drone.mode, lost);
     case Activity::kOutside:
@@ -166,6 +172,13 @@ EventWords words_for(std::string_view id, Activity after, const swarm::DroneSnap
 EventWords words_for_fault(std::string_view id, const swarm::DroneSnapshot& drone, std::size_t active,
                            std::size_t drones) {
   return fault_words(id, drone.fault, drone.mode, who_covers(active, drones));
+}
+
+EventWords words_for_station(std::string_view name, bool works) {
+  if (works) return {Severity::kInfo, fmt::format("station {} charges again", name), "drones are sent there again", ""};
+  return {Severity::kAlarm, fmt::format("station {} does not charge who stands there", name),
+          "nobody is sent there; who stands there flies to another station if it can",
+          "check the station's power; who stays on its pads covers again once it is charged"};
 }
 
 std::string_view after_restart(bool has_real_drones) {

@@ -25,6 +25,9 @@ struct EventWords {
 [[nodiscard]] EventWords words_for(std::string_view id, swarm::Activity after, const swarm::DroneSnapshot& drone,
                                    std::size_t active, std::size_t drones);
 
+/// A station stopped or began again to charge, as drones there notice.
+[[nodiscard]] EventWords words_for_station(std::string_view name, bool works);
+
 /// Something was found to be wrong with a drone while its activity stayed what it was.
 [[nodiscard]] EventWords words_for_fault(std::string_view id, const swarm::DroneSnapshot& drone, std::size_t active,
                                          std::size_t drones);

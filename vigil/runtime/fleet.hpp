@@ -3,6 +3,7 @@
 #include <chrono>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <span>
 
 #include "vigil/swarm/drone_id.hpp"
@@ -41,6 +42,8 @@ struct TruthSample {
   Vec2 velocity = Vec2::Zero();
   double height_m = 0.0;
   swarm::VehicleMode mode = swarm::VehicleMode::kUnknown;
+  double charge = std::numeric_limits<double>::quiet_NaN();  ///< share of what its battery can hold; NaN: it has none
+  bool ran_empty = false;  ///< at some time its battery was empty while it was in the air
 };
 
 enum class MishapKind : std::uint8_t {
@@ -77,6 +80,8 @@ class VirtualFleet : public Fleet {
   /// Nothing passes between it and the ground for so long, in either direction.
   virtual void cut_link(swarm::DroneId drone, double for_s) noexcept = 0;
   virtual void befall(swarm::DroneId drone, const Mishap& mishap) noexcept = 0;
+  /// A station, counted in the mission's order, charges or no more. Simulators without any pass over it.
+  virtual void set_station(std::size_t /*station*/, bool /*charges*/) noexcept {}
 };
 
 }  // namespace vigil::runtime

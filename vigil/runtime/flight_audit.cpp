@@ -90,6 +90,13 @@ void FlightAudit::judge_speeds(std::span<const TruthSample> truth, const swarm::
   }
 }
 
+void FlightAudit::judge_batteries(std::span<const TruthSample> truth) noexcept {
+  totals_.ran_empty = 0;
+  for (const TruthSample& drone : truth) totals_.ran_empty += drone.ran_empty ? 1U : 0U;
+  for (const std::size_t drone : airborne_)
+    if (std::isfinite(truth[drone].charge)) lower(totals_.least_charge, truth[drone].charge);
+}
+
 Clearances FlightAudit::judge(std::span<const TruthSample> truth, const swarm::Snapshot& snapshot) noexcept {
   airborne_.clear();
   for (std::size_t i = 0; i < truth.size(); ++i) {
@@ -100,6 +107,7 @@ Clearances FlightAudit::judge(std::span<const TruthSample> truth, const swarm::S
   Clearances now;
   judge_pairs(truth, snapshot, now);
   judge_places(truth, now);
+  judge_batteries(truth);
   judge_speeds(truth, snapshot);
   lower(totals_.least.airborne_pair_m, now.airborne_pair_m);
   lower(totals_.least.active_pair_m, now.active_pair_m);

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <limits>
 #include <span>
 #include <vector>
 
@@ -35,6 +36,8 @@ struct AuditTotals {
   // back within the limits: those are the pilot's.
   std::uint64_t wall_violations = 0;    ///< ticks x airborne drones closer than R_wall to the border, or outside
   std::uint64_t no_fly_violations = 0;  ///< ticks x airborne drones within the buffer of a no-fly polygon
+  std::uint64_t ran_empty = 0;          ///< drones whose batteries were empty in the air
+  double least_charge = std::numeric_limits<double>::infinity();  ///< of a battery in the air; infinity: there is none
   std::uint64_t speed_violations = 0;  ///< ticks x steered drones ordered (or, see follows_exactly, flying) above u_max
 };
 
@@ -52,6 +55,7 @@ class FlightAudit {
   [[nodiscard]] bool is_within_limits(const TruthSample& drone) const noexcept;
   void judge_pairs(std::span<const TruthSample> truth, const swarm::Snapshot& snapshot, Clearances& now) noexcept;
   void judge_places(std::span<const TruthSample> truth, Clearances& now) noexcept;
+  void judge_batteries(std::span<const TruthSample> truth) noexcept;
   void judge_speeds(std::span<const TruthSample> truth, const swarm::Snapshot& snapshot) noexcept;
 
   AuditLimits limits_;

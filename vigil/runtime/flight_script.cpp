@@ -64,6 +64,8 @@ std::optional<MishapKind> mishap_of(EventKind kind) {
   }
 }
 
+bool concerns_station(EventKind kind) { return kind == EventKind::kFailStation || kind == EventKind::kRepairStation; }
+
 template <typename Entries>
 auto find_named(Entries& entries, const std::string& name) {
   return std::find_if(entries.begin(), entries.end(), [&](const auto& entry) { return entry.name == name; });
@@ -107,7 +109,7 @@ bool edits_targets(EventKind kind) {
 
 bool is_of_the_world(EventKind kind) {
   return kind == EventKind::kFail || kind == EventKind::kLoseTracking || kind == EventKind::kLoseLink ||
-         mishap_of(kind).has_value();
+         concerns_station(kind) || mishap_of(kind).has_value();
 }
 
 void apply_edit(TargetsSection& targets, const EventEntry& event) {
@@ -152,6 +154,12 @@ void FlightScript::play_event(const EventEntry& event, DueEvents& due) {
     due.log.back().detail = describe_edit(event);
   } else if (event.what == EventKind::kStartAfresh) {
     due.commands.push_back({.kind = CommandKind::kStartAfresh, .drone = {}, .target = {}});
+  } else if (concerns_station(event.what)) {
+    const auto station = find_named(mission_.stations, event.station);
+    due.log.back().detail = event.station;
+    if (station == mission_.stations.end()) return;
+    fleet_.set_station(static_cast<std::size_t>(station - mission_.stations.begin()),
+                       event.what == EventKind::kRepairStation);
   } else {
     play_for_drones(event, due);
   }

@@ -41,6 +41,7 @@ SummaryBuilder::SummaryBuilder(const Mission& mission)
       ask_percent_at_s_(times_to_ask(mission)),
       asked_duration_s_(mission.simulation.duration_s),
       dt_s_(1.0 / mission.control.rate_hz) {
+  if (mission.simulation.battery) summary_.energy.emplace();
   summary_.mission = mission.name;
   summary_.seed = mission.simulation.seed;
   summary_.drones = mission.drones.size();
@@ -61,6 +62,7 @@ void SummaryBuilder::add(const swarm::Snapshot& snapshot, double tick_us) {
   tick_us_.push_back(static_cast<float>(tick_us));
   if (snapshot.fallback) ++summary_.fallback_ticks;
   faults_.add(snapshot);
+  if (summary_.energy) summary_.energy->add(snapshot);
   if (summary_.active.empty() || summary_.active.back().second != snapshot.active)
     summary_.active.emplace_back(snapshot.time_s, snapshot.active);
   if (!snapshot.has_metric) return;
@@ -160,6 +162,7 @@ nlohmann::ordered_json to_json(const FlightSummary& summary) {
             {"accounting", summary.accounting},
             {"controller", summary.controller},
             {"barrier", summary.barrier}};
+  if (summary.energy) json["energy"] = summary.energy->to_json(summary.audit);
   if (summary.goals) add_goals(json, summary);
   return json;
 }

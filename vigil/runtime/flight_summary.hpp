@@ -8,6 +8,7 @@
 
 #include <nlohmann/json_fwd.hpp>
 
+#include "vigil/runtime/energy_tally.hpp"
 #include "vigil/runtime/fault_tally.hpp"
 #include "vigil/runtime/flight_audit.hpp"
 #include "vigil/runtime/goal_script.hpp"
@@ -36,6 +37,7 @@ struct FlightSummary {
   std::vector<Detection> detections;  ///< what befell drones by the mission's events, and when it was noticed
   std::uint64_t false_alarms = 0;     ///< FaultTally::false_alarms()
   std::vector<std::pair<double, std::size_t>> active;  ///< each change of |I_a(t)|
+  std::optional<EnergyTally> energy;                   ///< where the mission has batteries
   double tick_us_p50 = 0.0;  ///< wall-clock, the only figures that differ between two runs of one seed
   double tick_us_p99 = 0.0;
   double tick_us_max = 0.0;

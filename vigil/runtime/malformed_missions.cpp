@@ -197,6 +197,18 @@ void add_contradictions(std::vector<MalformedMission>& table) {
     table.push_back({std::move(name), std::move(text), Fault::kMeaning, std::move(key), std::move(message)});
   };
   const auto but = right_mission_but;
+  const auto with_pads = [&](const std::string& pads) {
+    return but("control:\n", "stations: [{name: west, pads_m: " + pads + "}]\ncontrol:\n");
+  };
+  add("a pad at the wall", with_pads("[[-1.95, 0]]"), "stations[0].pads_m[0]", "closer to the field's border");
+  add("a pad beside the field", with_pads("[[5, 0]]"), "stations[0].pads_m[0]", "closer to the field's border");
+  add("a pad in a no-fly polygon", with_pads("[[-1.2, 0.6]]"), "stations[0].pads_m[0]", "in the no-fly polygon mast");
+  add("pads on top of each other", with_pads("[[1, 0], [1.1, 0]]"), "stations[0].pads_m[1]", "from every other pad");
+  add("two stations of one name",
+      but("control:\n", "stations: [{name: west, pads_m: [[1, 0]]}, {name: west, pads_m: [[1, 1]]}]\ncontrol:\n"),
+      "stations[1].name", "is also the name of stations[0]");
+  add("a failure of a station that there is not", but("do: land, drone: b", "do: fail_station, station: west"),
+      "simulation.events[0].station", "is no station of this mission");
   add("R_s larger than the field", but("separation_m: 0.2", "separation_m: 3.5"), "safety.separation_m",
       "below the field's shorter side, 3 m");
   add("a contact distance beyond R_s", but("separation_m: 0.2", "separation_m: 0.2\n  contact_distance_m: 0.3"),

@@ -74,6 +74,18 @@ struct DroneEntry {
   friend bool operator==(const DroneEntry&, const DroneEntry&) = default;
 };
 
+/// A place where drones come down to have their batteries charged, and rise again by themselves.
+struct StationEntry {
+  std::string name;
+  std::vector<Vec2> pads_m;   ///< world frame, at least one; each for one drone
+  double full_in_s = 3600.0;  ///< from empty to full
+  double pad_radius_m = 0.5;  ///< a drone that comes down within it is charged
+  friend bool operator==(const StationEntry&, const StationEntry&) = default;
+};
+
+/// The pads of all stations together: each is looked at when a drone is to be sent to one.
+inline constexpr std::size_t kMostPads = 1000;
+
 /// Instead of `drones`: so many drones on a regular grid inside the field, ids prefix1, prefix2, ...
 struct DroneGridSection {
   int count = 0;
@@ -133,9 +145,10 @@ struct SafetySection {
 struct HealthSection {
   double tracking_timeout_s = 0.5;
   double link_timeout_s = 1.0;
-  double battery_reserve = 0.2;   ///< share of a full battery, [0, 1]
-  double recovery_s = 0.5;        ///< healthy for so long before it is active again
-  double landed_height_m = 0.05;  ///< below this a drone is down: no obstacle any more
+  double battery_reserve = 0.2;       ///< share of a full battery, [0, 1]
+  double recovery_s = 0.5;            ///< healthy for so long before it is active again
+  double landed_height_m = 0.05;      ///< below this a drone is down: no obstacle any more
+  std::optional<double> endurance_s;  ///< about how long a full battery flies; default: the simulated one, when new
   friend bool operator==(const HealthSection&, const HealthSection&) = default;
 };
 
@@ -224,7 +237,9 @@ enum class EventKind : std::uint8_t {
   kMoveTarget,      ///< cluster, target (counted from 1), point_m
   kRemoveTarget,    ///< cluster, target (counted from 1); the last one removes the cluster
   kSetWeight,       ///< cluster or area, weight
-  kStartAfresh      ///< coverage statistics are forgotten
+  kStartAfresh,     ///< coverage statistics are forgotten
+  kFailStation,     ///< the station charges nobody any more
+  kRepairStation    ///< ... and again
 };
 
 struct EventEntry {
@@ -238,6 +253,7 @@ struct EventEntry {
   double weight = 0.0;
   double for_s = 0.0;
   std::string other;            ///< the id of another drone
+  std::string station;          ///< the name of one
   Vec2 shift_m = Vec2::Zero();  ///< world frame
   friend bool operator==(const EventEntry&, const EventEntry&) = default;
 };
@@ -282,6 +298,7 @@ struct Mission {
   std::vector<NoFlyEntry> no_fly;
   std::vector<DroneEntry> drones;  ///< resolved from drone_grid where that is given
   std::optional<DroneGridSection> drone_grid;
+  std::vector<StationEntry> stations;
   ControlSection control;
   SafetySection safety;
   HealthSection health;

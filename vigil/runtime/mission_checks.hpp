@@ -13,6 +13,9 @@ void check_numbers(const Mission& mission, const MissionSource& source);
 void check_simulation(const Mission& mission, const MissionSource& source);
 /// Targets and no-fly polygons against the field and each other. Precondition: check_numbers has passed.
 void check_places(const Mission& mission, const MissionSource& source);
+/// Stations against the field, no-fly polygons and each other. Precondition: check_numbers and check_places have
+/// passed.
+void check_stations(const Mission& mission, const MissionSource& source);
 /// Ids and starts. Precondition: check_numbers and check_places have passed; a drone_grid is resolved.
 void check_drones(const Mission& mission, const MissionSource& source);
 /// Times, names and numbers of targets, in the course of the mission. Precondition: all others have passed.

@@ -55,6 +55,11 @@ void describe(DescriptionVisitor& visitor, Mission& mission) {
                             .create = [&] { mission.drone_grid.emplace(); },
                             .describe = [&](DescriptionVisitor& v) { describe(v, *mission.drone_grid); }});
   visitor.exactly_one_of("drones", "drone_grid");
+  static_assert(kMostPads == 1000, "the sentence below says so");
+  visitor.list({.name = "stations",
+                .meaning = "the places to which drones fly by themselves to have their batteries charged, in turns; "
+                           "they have at most 1000 pads in all"},
+               {0, 200}, sections_of(mission.stations));
   visitor.section({.name = "control", .meaning = "how the swarm covers its targets", .is_required = true},
                   [&](DescriptionVisitor& v) { describe(v, mission.control); });
   visitor.section({.name = "safety", .meaning = "what is kept whatever coverage asks for", .is_required = true},
@@ -170,6 +175,20 @@ void describe(DescriptionVisitor& visitor, DroneGridSection& grid) {
                   .unit = "m",
                   .default_text = "as wide as the field allows"},
                  kLength, grid.spacing_m);
+}
+
+void describe(DescriptionVisitor& visitor, StationEntry& station) {
+  visitor.text({.name = "name", .meaning = "a name, unique among stations", .is_required = true}, TextRule::kName,
+               station.name);
+  visitor.points({.name = "pads_m",
+                  .meaning = "where drones come down, world frame; one drone a pad, best where there is little to see",
+                  .unit = "m",
+                  .is_required = true},
+                 kWorldCoordinate, {1, kMostPads}, station.pads_m);
+  visitor.number({.name = "full_in_s", .meaning = "the time in which it charges an empty battery", .unit = "s"},
+                 {1.0, 86'400.0}, station.full_in_s);
+  visitor.number({.name = "pad_radius_m", .meaning = "a drone that comes down within it is charged", .unit = "m"},
+                 {0.01, 100.0}, station.pad_radius_m);
 }
 
 std::string_view name_of(OutsideField value) { return kOutsideField.at(static_cast<std::size_t>(value)).name; }

@@ -125,6 +125,7 @@ void describe(DescriptionVisitor& visitor, AreaEntry& area);
 void describe(DescriptionVisitor& visitor, NoFlyEntry& no_fly);
 void describe(DescriptionVisitor& visitor, DroneEntry& drone);
 void describe(DescriptionVisitor& visitor, DroneGridSection& grid);
+void describe(DescriptionVisitor& visitor, StationEntry& station);
 void describe(DescriptionVisitor& visitor, ControlSection& control);
 void describe(DescriptionVisitor& visitor, SafetySection& safety);
 void describe(DescriptionVisitor& visitor, HealthSection& health);

@@ -212,6 +212,9 @@ std::string event_in_words(const EventEntry& event) {
     case EventKind::kAddTarget:
     case EventKind::kMoveTarget:
       return text + " to " + at(event.point_m) + " m";
+    case EventKind::kFailStation:
+    case EventKind::kRepairStation:
+      return text + " " + event.station;
     case EventKind::kSetWeight:
       return text + fmt::format(" to {:.6g}", event.weight);
     default:

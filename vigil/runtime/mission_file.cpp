@@ -23,6 +23,7 @@ Mission parse_mission(std::string_view text, const std::string& name, std::span<
   check_numbers(mission, source);
   drop_events_after_the_end(mission, source);
   check_places(mission, source);
+  check_stations(mission, source);
   if (mission.drone_grid) mission.drones = drones_on_grid(mission, source);
   check_drones(mission, source);
   check_events(mission, source);

@@ -154,6 +154,20 @@ std::vector<Vec2> starts_in_field(const Mission& mission) {
   return starts;
 }
 
+std::vector<swarm::ChargingPad> charging_pads(const Mission& mission) {
+  const field::WorldFrame frame = world_frame(mission);
+  std::vector<swarm::ChargingPad> pads;
+  for (std::size_t station = 0; station < mission.stations.size(); ++station) {
+    const StationEntry& entry = mission.stations[station];
+    for (const Vec2& pad_W : entry.pads_m)
+      pads.push_back({.place = frame.point_to_field(pad_W),
+                      .station = station,
+                      .full_in_s = entry.full_in_s,
+                      .radius_m = entry.pad_radius_m});
+  }
+  return pads;
+}
+
 std::vector<field::Segment> no_fly_edges(const Mission& mission) {
   std::vector<field::Segment> result;
   for (const NoFlyEntry& entry : mission.no_fly) {

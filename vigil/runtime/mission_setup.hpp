@@ -9,6 +9,7 @@
 #include "vigil/core/field/polygon.hpp"
 #include "vigil/core/safety/filter.hpp"
 #include "vigil/runtime/mission.hpp"
+#include "vigil/swarm/charging_pad.hpp"
 
 /// From a mission, as its file says it, to the values of core/: field frame, defaults resolved.
 /// Precondition of all: a mission that load_mission or parse_mission returned.
@@ -51,6 +52,8 @@ namespace vigil::runtime {
 [[nodiscard]] field::Importance importance(const Mission& mission);
 /// In the order of Mission::drones, field frame.
 [[nodiscard]] std::vector<Vec2> starts_in_field(const Mission& mission);
+/// The pads of all stations, station by station, field frame.
+[[nodiscard]] std::vector<swarm::ChargingPad> charging_pads(const Mission& mission);
 /// The edges of every no-fly polygon, in their order, field frame.
 [[nodiscard]] std::vector<field::Segment> no_fly_edges(const Mission& mission);
 

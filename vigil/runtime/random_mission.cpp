@@ -56,6 +56,7 @@ class Maker {
     make_no_fly();
     make_control();
     make_safety();
+    make_stations();
     make_simulation();
     make_drones();
     if (dice_.coin()) mission_.field.datum = {dice_.between(-89.0, 89.0), dice_.between(-180.0, 180.0)};
@@ -138,8 +139,21 @@ class Maker {
                        .link_timeout_s = dice_.between(0.1, 1.0),
                        .battery_reserve = dice_.between(0.0, 0.9),
                        .recovery_s = dice_.between(0.0, 1.0),
-                       .landed_height_m = dice_.between(0.0, 0.1)};
+                       .landed_height_m = dice_.between(0.0, 0.1),
+                       .endurance_s = dice_.maybe(10.0, 1000.0)};
     mission_.sensor.footprint_radius_m = dice_.maybe(0.1, 1.0);
+  }
+
+  /// Above each other in the middle of the field's left half, where no no-fly polygon is.
+  void make_stations() {
+    for (std::size_t i = dice_.below(3); i-- > 0;) {
+      const Vec2 share(0.4, 0.3 + 0.4 * static_cast<double>(i));
+      mission_.stations.push_back(
+          {.name = dice_.name(" s" + std::to_string(i)),
+           .pads_m = {world_frame(mission_).point_to_world(share.cwiseProduct(mission_.field.size_m))},
+           .full_in_s = dice_.between(1.0, 1000.0),
+           .pad_radius_m = dice_.between(0.01, 1.0)});
+    }
   }
 
   void make_simulation() {
@@ -201,12 +215,18 @@ class Maker {
   EventEntry make_event(double at_s) {
     EventEntry event;
     event.at_s = at_s;
-    event.what = static_cast<EventKind>(dice_.below(25));
+    event.what = static_cast<EventKind>(dice_.below(27));
     if (event.what == EventKind::kSwapTracking) event.what = EventKind::kFreezeTracking;  // takes two drones
     const bool needs_cluster = event.what == EventKind::kMoveTarget || event.what == EventKind::kRemoveTarget ||
                                event.what == EventKind::kSetWeight;
     if (needs_cluster && targets_added_ == 0) event.what = EventKind::kAddTarget;
+    const bool needs_station = event.what == EventKind::kFailStation || event.what == EventKind::kRepairStation;
+    if (needs_station && mission_.stations.empty()) event.what = EventKind::kStartAfresh;
     if (event.what == EventKind::kStartAfresh) return event;
+    if (needs_station) {
+      event.station = mission_.stations.front().name;
+      return event;
+    }
     if (event.what < EventKind::kAddTarget) {
       event.drone = dice_.coin() ? "all" : "d1";
       if (event.what == EventKind::kOverride || event.what == EventKind::kPilotUnasked ||

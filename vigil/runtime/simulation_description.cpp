@@ -24,7 +24,7 @@ constexpr std::array<Choice, 2> kStartState{{
     {"grounded", "every drone stands at its start until a take_off event"},
 }};
 
-constexpr std::array<Choice, 25> kEventKind{{
+constexpr std::array<Choice, 27> kEventKind{{
     {"take_off", "the operator lets a drone take off"},
     {"land", "the operator lets a drone land where it is"},
     {"hold", "the operator lets a drone hover, out of coverage"},
@@ -50,6 +50,8 @@ constexpr std::array<Choice, 25> kEventKind{{
     {"remove_target", "a target point leaves its cluster; the last one removes the cluster"},
     {"set_weight", "a cluster or area gets another weight"},
     {"start_afresh", "all coverage so far is forgotten"},
+    {"fail_station", "a station charges nobody any more; drones have to notice"},
+    {"repair_station", "a station charges again"},
 }};
 
 constexpr std::array<Choice, 3> kGoalPattern{{
@@ -163,6 +165,11 @@ void describe_particulars(DescriptionVisitor& visitor, EventEntry& event) {
       visitor.number({.name = "weight", .meaning = "the new weight", .is_required = true}, {0.0, 1e6}, event.weight);
       return;
     case EventKind::kStartAfresh:
+      return;
+    case EventKind::kFailStation:
+    case EventKind::kRepairStation:
+      visitor.text({.name = "station", .meaning = "the name of a station", .is_required = true}, TextRule::kName,
+                   event.station);
       return;
   }
 }

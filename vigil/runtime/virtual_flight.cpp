@@ -86,6 +86,13 @@ void VirtualFlight::log_snapshot_events() {
     } else if (event.kind == swarm::EventKind::kFaultNoticed) {
       logged.what = name_of(event.fault);
       logged.detail = fault_in_words(event);
+    } else if (event.kind == swarm::EventKind::kStationFailed || event.kind == swarm::EventKind::kStationWorks) {
+      const bool works = event.kind == swarm::EventKind::kStationWorks;
+      const EventWords words = words_for_station(mission_.stations.at(event.station).name, works);
+      logged.what = works ? "station_works" : "station_failed";
+      logged.detail = fmt::format("{}; {}", words.text, words.effect);
+      recorder_->log(logged);
+      continue;
     } else if (event.kind == swarm::EventKind::kWishRefused) {
       logged.what = "refused";
       logged.detail = name_of(event.wish);

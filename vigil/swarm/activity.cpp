@@ -27,6 +27,12 @@ bool is_unbelievable(Fault fault) {
   return fault == Fault::kFrozen || fault == Fault::kJumped || fault == Fault::kSwapped || fault == Fault::kDisagreeing;
 }
 
+/// Below it a drone lands where it is. Who is on its way to be charged may use half of the reserve for that: it was
+/// sent in time to get there with all of it, by what was known then.
+double least_battery(const DroneMemory& memory, const HealthParameters& health) {
+  return memory.intent == Intent::kRecharge ? 0.5 * health.battery_reserve : health.battery_reserve;
+}
+
 /// What is wrong with the drone itself, whatever the operator wishes; kActive where nothing is.
 Activity fault_of(const DroneMemory& memory, const HealthParameters& health) {
   const DroneObservation& seen = memory.last_good;
@@ -38,8 +44,14 @@ Activity fault_of(const DroneMemory& memory, const HealthParameters& health) {
   if (seen.age_s > health.tracking_timeout_s || is_unbelievable(memory.fault)) return Activity::kTrackingLost;
   if (memory.fault == Fault::kOutside) return Activity::kOutside;
   if (memory.fault == Fault::kNotFollowing) return Activity::kNotFollowing;
-  if (seen.battery < health.battery_reserve) return Activity::kBatteryLow;  // false for NaN: not reported
+  if (seen.battery < least_battery(memory, health)) return Activity::kBatteryLow;  // false for NaN: not reported
   return Activity::kActive;
+}
+
+Activity phase_on_ground(const DroneMemory& memory) {
+  if (wants_up(memory)) return Activity::kAboutToTakeOff;
+  const bool charges = memory.intent == Intent::kRecharge && memory.errand != Errand::kWait;
+  return charges ? Activity::kCharging : Activity::kGrounded;
 }
 
 /// What the operator's wish or the vehicle's own phase keeps it from; kActive where nothing does.
@@ -48,12 +60,13 @@ Activity phase_of(const DroneMemory& memory) {
   if (memory.intent == Intent::kEmergencyStop) return Activity::kEmergencyStop;
   if (memory.intent == Intent::kMarkedFailed) return Activity::kMarkedFailed;
   if (memory.intent == Intent::kOverride || mode == VehicleMode::kManual) return Activity::kOverridden;
-  if (mode == VehicleMode::kGrounded)
-    return memory.intent == Intent::kTakeOff ? Activity::kAboutToTakeOff : Activity::kGrounded;
-  if (memory.intent == Intent::kLand || mode == VehicleMode::kLanding) return Activity::kLanding;
+  if (mode == VehicleMode::kGrounded) return phase_on_ground(memory);
+  const bool lands_on_pad = memory.intent == Intent::kRecharge && memory.errand == Errand::kLand;
+  if (memory.intent == Intent::kLand || lands_on_pad || mode == VehicleMode::kLanding) return Activity::kLanding;
   if (mode == VehicleMode::kTakingOff) return Activity::kTakingOff;
   if (memory.intent == Intent::kHold || memory.intent == Intent::kStayDown) return Activity::kHeld;
   if (memory.intent == Intent::kGoTo) return Activity::kTravelling;
+  if (memory.intent == Intent::kRecharge) return Activity::kReturning;
   return Activity::kActive;
 }
 
@@ -110,7 +123,7 @@ bool apply_wish(DroneMemory& memory, CommandKind wish, const Vec2& place) noexce
   };
   // Motors that were stopped in the air stay stopped.
   if (intent == Intent::kEmergencyStop && airborne) return wish == CommandKind::kEmergencyStop;
-  const bool is_about_to_rise = grounded && intent == Intent::kTakeOff;
+  const bool is_about_to_rise = grounded && (intent == Intent::kTakeOff || intent == Intent::kRecharge);
   switch (wish) {
     case CommandKind::kEmergencyStop:
       return set_if(true, Intent::kEmergencyStop);
@@ -148,16 +161,17 @@ void judge(DroneMemory& memory, const HealthParameters& health, double dt_s) noe
   if (fault == Activity::kActive) {
     memory.healthy_s += dt_s;
     if (memory.healthy_s >= health.recovery_s) memory.is_recovering = false;
-    const bool would_fly = phase == Activity::kActive || phase == Activity::kTravelling;
+    const bool would_fly =
+        phase == Activity::kActive || phase == Activity::kTravelling || phase == Activity::kReturning;
     memory.activity = would_fly && memory.is_recovering ? Activity::kRecovering : phase;
     return;
   }
   memory.healthy_s = 0.0;
   memory.is_recovering = fault != Activity::kNeverSeen;  // the first sight of a drone is no recovery
   // What the operator did to a drone, or its being down, says more than what is wrong with it then.
-  const bool phase_explains = phase == Activity::kGrounded || phase == Activity::kAboutToTakeOff ||
-                              phase == Activity::kEmergencyStop || phase == Activity::kMarkedFailed ||
-                              phase == Activity::kOverridden;
+  const bool phase_explains = phase == Activity::kGrounded || phase == Activity::kCharging ||
+                              phase == Activity::kAboutToTakeOff || phase == Activity::kEmergencyStop ||
+                              phase == Activity::kMarkedFailed || phase == Activity::kOverridden;
   memory.activity = phase_explains && fault != Activity::kNeverSeen ? phase : fault;
 }
 
@@ -175,6 +189,7 @@ Action action_for(const DroneMemory& memory) noexcept {
     case Activity::kHeld:
     case Activity::kRecovering:
     case Activity::kTravelling:
+    case Activity::kReturning:
     case Activity::kTrackingLost:
     case Activity::kLinkLost:
     case Activity::kNotFollowing:
@@ -195,7 +210,7 @@ bool is_airborne(const DroneMemory& memory, const HealthParameters& health) noex
 
 bool is_steered(Activity activity) noexcept {
   return activity == Activity::kActive || activity == Activity::kTravelling || activity == Activity::kHeld ||
-         activity == Activity::kRecovering || activity == Activity::kOutside;
+         activity == Activity::kRecovering || activity == Activity::kOutside || activity == Activity::kReturning;
 }
 
 bool stands_still(Activity activity) noexcept {
@@ -210,6 +225,8 @@ double wandering_speed(const DroneMemory& memory, double u_max_m_s) noexcept {
   return std::min(u_max_m_s, memory.last_good.velocity.norm() + kChange * u_max_m_s);
 }
 
-bool wants_up(const DroneMemory& memory) noexcept { return memory.intent == Intent::kTakeOff; }
+bool wants_up(const DroneMemory& memory) noexcept {
+  return memory.intent == Intent::kTakeOff || (memory.intent == Intent::kRecharge && memory.errand == Errand::kRise);
+}
 
 }  // namespace vigil::swarm

@@ -30,7 +30,17 @@ enum class Intent : std::uint8_t {
   kMarkedFailed,
   kEmergencyStop,  ///< until a take-off is asked for on the ground
   kOverride,
-  kCalledBack  ///< a take-off was taken back on the ground: whatever leaves the ground after that lands
+  kCalledBack,  ///< a take-off was taken back on the ground: whatever leaves the ground after that lands
+  kRecharge     ///< the swarm's own wish: at a pad, until it is charged; then kTakeOff. See Errand
+};
+
+/// How far kRecharge has come.
+enum class Errand : std::uint8_t {
+  kFly,     ///< to DroneMemory::place, the pad
+  kLand,    ///< onto it
+  kCharge,  ///< there
+  kWait,    ///< there, but it charges nobody
+  kRise     ///< off the ground, to fly to another pad
 };
 
 /// Active, or why not: the paper's chi_i (12) with its reason.
@@ -52,7 +62,9 @@ enum class Activity : std::uint8_t {
   kTravelling,      ///< on its way to a place, or waiting there
   kAboutToTakeOff,  ///< on the ground, and told to rise: as soon as it can, and the air above it is clear
   kNotFollowing,    ///< it does not fly what it is told
-  kOutside          ///< it left the field, and is told to come back
+  kOutside,         ///< it left the field, and is told to come back
+  kReturning,       ///< on its way to a pad, to be charged
+  kCharging         ///< on a pad; it rises by itself when it is charged
 };
 
 /// What the vehicle is asked to do, every tick anew (so a lost message costs one tick).
@@ -61,7 +73,9 @@ enum class Action : std::uint8_t { kNone, kTakeOff, kLand, kVelocity, kStopMotor
 /// What the swarm remembers of one drone between ticks.
 struct DroneMemory {
   Intent intent = Intent::kStayDown;
-  Vec2 place = Vec2::Zero();   ///< kGoTo: where to, field frame
+  Errand errand = Errand::kFly;
+  float wants_up_s = 0.0F;     ///< for so long it has wanted to leave the ground
+  Vec2 place = Vec2::Zero();   ///< kGoTo, kRecharge: where to, field frame
   DroneObservation last_good;  ///< the newest observation whose numbers were usable; its ages count on
   bool is_expected = false;    ///< before it is seen: last_good.position is where the mission says that it starts
   double healthy_s = 0.0;      ///< how long nothing has been wrong with it

@@ -10,13 +10,19 @@ constexpr double kReportError = 0.03;        ///< share of full, standard deviat
 constexpr double kReportErrorLastsS = 60.0;  ///< so long reports are wrong by the same
 constexpr double kFarOff = 4.0;              ///< standard errors
 constexpr double kFarOffForS = 10.0;
-constexpr double kRateChange = 0.2;  ///< of itself, standard deviation ...
+constexpr double kRateChange = 0.1;  ///< of itself, standard deviation ...
 constexpr double kRateChangesInS = 300.0;
 constexpr double kChargeDriftPerS = 0.005 * 0.005 / 60.0;  ///< variance; the report's curve is not the battery's
-constexpr double kGroundDriftPerS = 0.1 * 0.1;  ///< on the ground it is charged or changed, by nobody knows what
+constexpr double kGroundDriftPerS = 3e-4;  ///< on the ground it is charged or changed, by nobody knows what
 constexpr double kUnknownCharge = 0.1 * 0.1;
 
 }  // namespace
+
+EnergyEstimate::EnergyEstimate(double endurance_s) noexcept
+    : rate_per_s_(std::clamp(1.0 / endurance_s, kSlowest, kFastest)) {
+  constexpr double kUnsure = 0.3;
+  rate_variance_ = kUnsure * kUnsure * rate_per_s_ * rate_per_s_;
+}
 
 void EnergyEstimate::predict(bool is_airborne, double dt_s) noexcept {
   if (!is_airborne) {

@@ -12,7 +12,7 @@ struct TimeLeft {
 
 /// What is known of one drone's battery: its charge, and how fast flying empties it, learned from what the vehicle
 /// reports. A Kalman filter of both,
-///     charge' = -rate in the air, 0 on the ground;    rate' = 0, but for a fifth of itself in five minutes
+///     charge' = -rate in the air, 0 on the ground;    rate' = 0, but for a tenth of itself in five minutes
 /// whose measurement is the report. Reports are wrong by some 3 %, and stay so for a while (a voltage under load, a
 /// curve that is not this battery's), so that many of them in a second say little more than one. One that is far off is
 /// believed no more than one that is four standard errors off, until such have come for ten seconds on end: then the
@@ -20,6 +20,10 @@ struct TimeLeft {
 /// always finite.
 class EnergyEstimate {
  public:
+  EnergyEstimate() = default;
+  /// A full battery is believed to fly so long, give or take a third. Precondition: > 0.
+  explicit EnergyEstimate(double endurance_s) noexcept;
+
   /// dt_s later; `reported`: the share of full, NaN where none is. Precondition: dt_s > 0.
   void update(double reported, bool is_airborne, double dt_s) noexcept;
 

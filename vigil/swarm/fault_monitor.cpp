@@ -21,6 +21,7 @@ bool is_ours(const DroneMemory& drone, VehicleMode mode) {
     case Activity::kHeld:
     case Activity::kRecovering:
     case Activity::kTravelling:
+    case Activity::kReturning:
     case Activity::kTrackingLost:
     case Activity::kNotFollowing:
     case Activity::kOutside:

@@ -13,19 +13,19 @@ namespace vigil::swarm {
 
 inline constexpr std::array<std::string_view, 8> kModeWords{"unknown", "grounded", "taking_off", "flying",
                                                             "landing", "falling",  "manual",     "failed"};
-inline constexpr std::array<std::string_view, 18> kActivityWords{
-    "active",     "never_seen",    "grounded",       "taking_off",        "landing",       "emergency_stop",
-    "overridden", "marked_failed", "vehicle_failed", "tracking_lost",     "link_lost",     "battery_low",
-    "held",       "recovering",    "travelling",     "about_to_take_off", "not_following", "outside"};
+inline constexpr std::array<std::string_view, 20> kActivityWords{
+    "active",        "never_seen",        "grounded",      "taking_off", "landing",     "emergency_stop", "overridden",
+    "marked_failed", "vehicle_failed",    "tracking_lost", "link_lost",  "battery_low", "held",           "recovering",
+    "travelling",    "about_to_take_off", "not_following", "outside",    "returning",   "charging"};
 inline constexpr std::array<std::string_view, 8> kFaultWords{"none",        "frozen",        "jumped",  "swapped",
                                                              "disagreeing", "not_following", "outside", "own_mode"};
 inline constexpr std::array<std::string_view, 5> kActionWords{"none", "take_off", "land", "velocity", "stop_motors"};
 inline constexpr std::array<std::string_view, 11> kCommandWords{
     "take_off",       "land",     "hold",      "go_to",      "resume",      "mark_failed",
     "emergency_stop", "override", "give_back", "set_target", "start_afresh"};
-inline constexpr std::array<std::string_view, 10> kIntentWords{
-    "stay_down", "take_off",    "cover",          "land",     "hold",
-    "go_to",     "mark_failed", "emergency_stop", "override", "called_back"};
+inline constexpr std::array<std::string_view, 11> kIntentWords{
+    "stay_down",   "take_off",       "cover",    "land",        "hold",    "go_to",
+    "mark_failed", "emergency_stop", "override", "called_back", "recharge"};
 inline constexpr std::array<std::string_view, 3> kIdleWords{"none", "no_targets", "no_active_drone"};
 
 /// The words of an enumeration, in its own order.
@@ -61,11 +61,11 @@ template <typename Enum>
 }
 
 static_assert(name_of(VehicleMode::kFailed) == kModeWords.back());
-static_assert(name_of(Activity::kOutside) == kActivityWords.back());
+static_assert(name_of(Activity::kCharging) == kActivityWords.back());
 static_assert(name_of(Fault::kOwnMode) == kFaultWords.back());
 static_assert(name_of(Action::kStopMotors) == kActionWords.back());
 static_assert(name_of(CommandKind::kStartAfresh) == kCommandWords.back());
-static_assert(name_of(Intent::kCalledBack) == kIntentWords.back());
+static_assert(name_of(Intent::kRecharge) == kIntentWords.back());
 static_assert(name_of(Idle::kNoActiveDrone) == kIdleWords.back());
 
 }  // namespace vigil::swarm

@@ -9,6 +9,7 @@
 #include "vigil/core/field/field.hpp"
 #include "vigil/core/safety/filter.hpp"
 #include "vigil/swarm/activity.hpp"
+#include "vigil/swarm/charging_pad.hpp"
 
 namespace vigil::swarm {
 
@@ -38,6 +39,7 @@ struct SwarmParameters {
   bool only_active_are_obstacles = false;
   HealthParameters health;
   FaultParameters faults;
+  RechargeParameters recharge;
   Intent first_intent = Intent::kStayDown;  ///< of every drone before any command
   /// Where each drone is expected before it is seen, field frame; none where nobody knows.
   std::vector<Vec2> starts;

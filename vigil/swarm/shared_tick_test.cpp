@@ -124,6 +124,7 @@ TEST(SharedTick, A_swarm_that_takes_off_at_once_waits_for_whoever_is_in_the_way)
   step(world, {}, nullptr);
   step(world, {{.kind = CommandKind::kTakeOff, .drone = {}, .target = {}}}, nullptr);
   EXPECT_EQ(world.snapshot.drones[1].order.action, Action::kNone);
+  for (int i = 0; i < 50; ++i) step(world, {}, nullptr);  // until it has been announced for long enough
   std::size_t taking_off = 0;
   for (const DroneSnapshot& drone : world.snapshot.drones) taking_off += drone.order.action == Action::kTakeOff;
   EXPECT_GT(taking_off, 550U);

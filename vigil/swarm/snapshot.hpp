@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <limits>
 #include <optional>
 #include <vector>
 
@@ -33,6 +34,9 @@ struct DroneSnapshot {
   Vec2 u_nom = Vec2::Zero();    ///< what coverage wanted
   DroneOrder order;             ///< what was asked of it
   safety::FilterReport filter;  ///< what held it
+  std::int32_t pad = -1;        ///< that is kept for it, as it was sent there or stands there; -1: none
+  /// When it is to be sent to a pad, s from now; 0 for who is away. Infinity: nobody plans that.
+  double leaves_in_s = std::numeric_limits<double>::infinity();
 };
 
 /// Why no drone covers anything.
@@ -44,7 +48,9 @@ enum class EventKind : std::uint8_t {
   kWishRefused,
   kTargetChanged,
   kStartedAfresh,
-  kFaultNoticed
+  kFaultNoticed,
+  kStationFailed,  ///< it charges nobody, as drones there notice
+  kStationWorks    ///< ... and again
 };
 
 struct Event {
@@ -53,6 +59,7 @@ struct Event {
   Activity before = Activity::kNeverSeen;  ///< kActivityChanged
   Activity after = Activity::kNeverSeen;   ///< kActivityChanged
   CommandKind wish = CommandKind::kHold;   ///< kWishAccepted, kWishRefused
+  std::uint32_t station = 0;               ///< kStationFailed, kStationWorks
   Fault fault = Fault::kNone;              ///< of both; kFaultNoticed: a new one, and its activity stays
 };
 

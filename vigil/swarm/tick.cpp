@@ -60,6 +60,11 @@ std::size_t most_bodies(const SwarmParameters& parameters) {
   return parameters.faults.watches ? 2 * parameters.drones : parameters.drones;
 }
 
+/// Has a place to go to, or waits there.
+bool travels(const DroneMemory& drone) {
+  return drone.activity == Activity::kTravelling || drone.activity == Activity::kReturning;
+}
+
 /// Small swarms never meet a second thread.
 std::size_t threads_worth(std::size_t parts) { return parts > 1 ? parallel::kMostThreads : 1; }
 
@@ -78,6 +83,7 @@ SwarmState::SwarmState(const SwarmParameters& parameters)
       air_(parameters.field, safety::barrier_radius(parameters.barrier), parameters.drones),
       flown_(parameters.drones, parameters.dt_s, longest_prediction_s(parameters)),
       monitor_(watch_setup(parameters), parameters.drones),
+      recharging_(parameters),
       target_(no_target(basis_)),
       drones_(parameters.drones),
       notes_(parts_of(parameters.drones)),
@@ -90,7 +96,11 @@ SwarmState::SwarmState(const SwarmParameters& parameters)
       reports_(parameters.drones),
       c_k_(target_.phi_k),
       a_k_(target_.phi_k) {
-  for (DroneMemory& drone : drones_) drone.intent = parameters.first_intent;
+  for (DroneMemory& drone : drones_) {
+    drone.intent = parameters.first_intent;
+    if (recharging_.has_pads() && parameters.recharge.endurance_s)
+      drone.energy = EnergyEstimate(*parameters.recharge.endurance_s);
+  }
   for (std::size_t index = 0; index < parameters.starts.size(); ++index) {
     drones_[index].is_expected = true;
     drones_[index].last_good.position = parameters.starts[index];
@@ -209,10 +219,11 @@ void SwarmState::judge_drones(std::span<const DroneObservation> observations, bo
     if (monitor_.watches()) drone.fault = monitor_.report(index).kind;
     drone.has_new_fault = drone.fault != Fault::kNone && drone.fault != fault_before;
     judge(drone, parameters_.health, parameters_.dt_s);
+    drone.wants_up_s = wants_up(drone) ? drone.wants_up_s + static_cast<float>(parameters_.dt_s) : 0.0F;
     predict(index);
     note.has_change = note.has_change || drone.activity != activities_before_[index] || drone.has_new_fault;
     note.active += drone.activity == Activity::kActive ? 1 : 0;
-    note.has_traveller = note.has_traveller || drone.activity == Activity::kTravelling;
+    note.has_traveller = note.has_traveller || travels(drone);
     note.has_starter = note.has_starter || wants_up(drone);
   });
   if (!is_any(&PartNote::has_change)) return;
@@ -362,10 +373,9 @@ guidance::Traveller SwarmState::traveller(std::size_t index) noexcept {
 void SwarmState::seek_goals() noexcept {
   travellers_.clear();
   if (!is_any(&PartNote::has_traveller)) return;
-  const auto travels = [](const DroneMemory& drone) { return drone.activity == Activity::kTravelling; };
   ways_.begin_tick(static_cast<std::size_t>(std::count_if(drones_.begin(), drones_.end(), travels)));
   for (std::size_t index = 0; index < drones_.size(); ++index) {
-    if (drones_[index].activity != Activity::kTravelling) continue;
+    if (!travels(drones_[index])) continue;
     travellers_.push_back(traveller(index));
   }
   travel_u_.resize(travellers_.size());  // within its capacity
@@ -393,6 +403,9 @@ void SwarmState::write_order(std::size_t index, DroneSnapshot& to) noexcept {
   to.order.action = action;
   to.order.velocity = u_[index];
   to.filter = reports_[index];
+  if (!recharging_.has_pads()) return;
+  to.pad = recharging_.pad_of(index);
+  to.leaves_in_s = recharging_.leaves_in_s(index);
 }
 
 void SwarmState::write_orders(Snapshot& out, parallel::Workers* workers) noexcept {
@@ -420,10 +433,12 @@ void tick(SwarmState& state, std::span<const DroneObservation> observations, std
       remember(state.drones_[index], state.believed(index, observations), state.parameters_.dt_s);
     state.take_commands(commands, out);
   }
+  state.recharging_.decide({state.drones_, state.u_, state.ways_, state.ticks_}, out);
   state.judge_drones(observations, is_told, out, workers);
   state.gather_active(workers);
   state.cover(out, workers);
   state.seek_goals();
+  state.recharging_.make_way(state.drones_, state.u_nom_);
   state.keep_safe(workers);
   state.write_orders(out, workers);
   ++state.ticks_;

@@ -17,6 +17,7 @@
 #include "vigil/swarm/flown_orders.hpp"
 #include "vigil/swarm/observation.hpp"
 #include "vigil/swarm/parameters.hpp"
+#include "vigil/swarm/recharging.hpp"
 #include "vigil/swarm/snapshot.hpp"
 
 namespace vigil::swarm {
@@ -106,7 +107,8 @@ class SwarmState {
   void write_orders(Snapshot& out, parallel::Workers* workers) noexcept;
   void write_order(std::size_t index, DroneSnapshot& to) noexcept;
   void sort_air(parallel::Workers* workers) noexcept;
-  /// Nobody flies so close above a grounded drone that it would come up into its way.
+  /// Nobody flies so close above a grounded drone, nor comes so fast, that it would come up into its way; and the
+  /// others have known of it for as long as they take to answer.
   [[nodiscard]] bool has_clear_air(std::size_t index) const noexcept;
   [[nodiscard]] safety::Body body_of(std::size_t index) const noexcept;
   [[nodiscard]] double assumed_age(const DroneMemory& drone) const noexcept;
@@ -127,6 +129,7 @@ class SwarmState {
   safety::NeighbourGrid air_;  ///< where drones are in the air, of a tick in which somebody wants to take off
   FlownOrders flown_;
   FaultMonitor monitor_;
+  Recharging recharging_;
   CoverageTarget target_;
   double fade_delta_ = 0.0;
   double first_metric_ = 0.0;

@@ -4,6 +4,7 @@
 #include <cassert>
 #include <limits>
 
+#include "vigil/core/safety/barrier.hpp"
 #include "vigil/swarm/tick.hpp"
 
 namespace vigil::swarm {
@@ -99,12 +100,26 @@ void SwarmState::sort_air(parallel::Workers* workers) noexcept {
 
 bool SwarmState::has_clear_air(std::size_t index) const noexcept {
   constexpr double kRounding = 1e-6;  // those who clear the air come to rest on the boundary itself
-  const double room = safety::barrier_radius(parameters_.barrier) - kRounding;
+  const safety::BarrierParameters& barrier = parameters_.barrier;
+  const double room_m = safety::barrier_radius(barrier) - kRounding;
   const Vec2& place = drones_[index].last_good.position;
   if (!place.allFinite()) return true;
+  constexpr double kAnswers = 2.0;  // lags: until 0.86 of a change is flown
+  const bool is_announced = drones_[index].wants_up_s >= parameters_.command_delay_s + kAnswers * barrier.lag_s;
+  if (!is_announced) return false;
+  // Who is fast must be able to give way from now on: the barrier between the two holds already, as they will be.
+  safety::Body rising = bodies_[index];
+  rising.is_controlled = true;
+  const safety::PairBarrier pair = safety::margin_barrier(barrier, rising);
+  const double reach_m = room_m + 2.0 * pair.lag_s * barrier.u_max_m_s + barrier.u_max_m_s * kLongestPredictionS;
   bool is_clear = true;
-  air_.visit_near(place, room, [&](std::size_t other) {
-    if (other != index && (drones_[other].last_good.position - place).norm() < room) is_clear = false;
+  air_.visit_near(place, reach_m, [&](std::size_t other) {
+    if (other == index) return;
+    const Vec2 z_ij = safety::barrier_point(barrier, bodies_[other]) - place;
+    const double spread_m = pair.lag_s * (bodies_[other].velocity - rising.velocity).norm();
+    const double h = z_ij.squaredNorm() - spread_m * spread_m - pair.radius_m * pair.radius_m;
+    const bool is_far = (drones_[other].last_good.position - place).norm() >= room_m;
+    if (!is_far || h < -kRounding * pair.radius_m) is_clear = false;
   });
   return is_clear;
 }

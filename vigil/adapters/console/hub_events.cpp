@@ -96,6 +96,12 @@ void Hub::hear_swarm(const LiveEvent& event) {
   } else if (event.event.kind == swarm::EventKind::kFaultNoticed) {
     told.what = swarm::name_of(event.event.fault);
     told.words = runtime::words_for_fault(id, event.drone, event.active, frame_->snapshot.drones.size());
+  } else if (event.event.kind == swarm::EventKind::kStationFailed ||
+             event.event.kind == swarm::EventKind::kStationWorks) {
+    const bool works = event.event.kind == swarm::EventKind::kStationWorks;
+    told.drone = "";
+    told.what = works ? "station_works" : "station_failed";
+    told.words = runtime::words_for_station(flight_->mission().stations.at(event.event.station).name, works);
   } else if (event.event.kind == swarm::EventKind::kWishRefused && concerns_drone(event.event.wish)) {
     told.what = "refused";
     told.words = {Severity::kInfo, runtime::refusal_words(id, event.event.wish, event.drone), "", ""};

@@ -12,6 +12,8 @@ namespace vigil::recording {
 namespace {
 
 constexpr std::size_t kParameterBytes = 1024;
+constexpr std::size_t kPadNumbers = 5;  ///< of one pad: x, y, station, full_in_s, radius
+constexpr double kMostPads = 1e4;
 
 /// Writes what visit_parameters() shows.
 struct Put {
@@ -30,6 +32,13 @@ struct Put {
     writer.count(2 * values.size());
     for (const Vec2& place : values)
       for (const double value : {place.x(), place.y()}) writer.put(value);
+  }
+  void pads(const std::vector<swarm::ChargingPad>& values) {
+    writer.count(kPadNumbers * values.size());
+    for (const swarm::ChargingPad& pad : values)
+      for (const double value :
+           {pad.place.x(), pad.place.y(), static_cast<double>(pad.station), pad.full_in_s, pad.radius_m})
+        writer.put(value);
   }
   template <class Enum>
   void choice(Enum value, int /*values*/) {
@@ -56,6 +65,19 @@ struct Get {
     if (numbers.size() % 2 != 0) throw RecordingError("the mission's message has a place without its y");
     for (std::size_t n = 0; n < numbers.size(); n += 2) values.push_back({numbers[n], numbers[n + 1]});
   }
+  void pads(std::vector<swarm::ChargingPad>& values) {
+    const std::vector<double> numbers = reader.sequence<double>();
+    if (numbers.size() % kPadNumbers != 0) throw RecordingError("the mission's message has a pad that is not whole");
+    for (std::size_t n = 0; n < numbers.size(); n += kPadNumbers) {
+      const double station = numbers[n + 2];
+      if (!(station >= 0.0 && station < kMostPads))
+        throw RecordingError("the mission's message has a pad of no station");
+      values.push_back({.place = {numbers[n], numbers[n + 1]},
+                        .station = static_cast<std::size_t>(station),
+                        .full_in_s = numbers[n + 3],
+                        .radius_m = numbers[n + 4]});
+    }
+  }
   template <class Enum>
   void choice(Enum& value, int values) {
     const int code = reader.u8();
@@ -76,6 +98,14 @@ struct Sane {
   void limit(double value) { holds = holds && value >= 0.0; }
   void places(const std::vector<Vec2>& values) {
     for (const Vec2& place : values) holds = holds && place.allFinite();
+  }
+  void pads(const std::vector<swarm::ChargingPad>& values) {
+    holds = holds && static_cast<double>(values.size()) <= kMostPads;
+    for (const swarm::ChargingPad& pad : values) {
+      holds = holds && pad.place.allFinite() && pad.full_in_s > 0.0 && pad.radius_m > 0.0;
+      (*this)(pad.full_in_s);
+      (*this)(pad.radius_m);
+    }
   }
   template <class Enum>
   void choice(Enum /*value*/, int /*values*/) {}
@@ -139,7 +169,8 @@ swarm::SwarmPast past_in(CdrReader& reader) {
 void write_head(CdrWriter& writer, const runtime::RecordingHead& head) {
   const swarm::SwarmPast past = head.start.past.value_or(swarm::SwarmPast{});
   const auto past_doubles = static_cast<std::size_t>(past.coverage.sum.size() + past.coverage.past_averages.size());
-  const std::size_t doubles = past_doubles + 2 * head.parameters.starts.size();
+  const std::size_t doubles =
+      past_doubles + 2 * head.parameters.starts.size() + kPadNumbers * head.parameters.recharge.pads.size();
   writer.start(head.mission_text.size() + sizeof(double) * doubles + kParameterBytes);
   writer.put(std::string_view(head.mission_text));
   writer.put(head.keep_every);

@@ -9,7 +9,7 @@ namespace vigil::recording {
 
 // A parameter that is not recorded would be another one when the flight is flown again, so this breaks when there is a
 // new one: show it below, add it to Mission.msg, then correct the size.
-static_assert(sizeof(void*) != 8 || sizeof(swarm::SwarmParameters) == 544);
+static_assert(sizeof(void*) != 8 || sizeof(swarm::SwarmParameters) == 600);
 
 /// Shows every value of the controller's parameters to `visit`, in the order of vigil_msgs/msg/Mission: writer and
 /// reader go by this one list. visit() takes numbers, flags and optional numbers, visit.count() and visit.index() whole
@@ -77,6 +77,10 @@ void visit_parameters(Visit& visit, Parameters& p) {
   visit(p.faults.bounds.blind_s);
   visit.choice(p.first_intent, 9);
   visit.places(p.starts);
+  visit.pads(p.recharge.pads);
+  visit(p.recharge.take_off_s);
+  visit(p.recharge.landing_s);
+  visit(p.recharge.endurance_s);
 }
 
 }  // namespace vigil::recording

@@ -1,5 +1,7 @@
 #include "vigil/adapters/sim/simulated_battery.hpp"
 
+#include <algorithm>
+
 namespace vigil::sim {
 
 void SimulatedBattery::advance(bool is_airborne, double dt_s) noexcept {
@@ -7,6 +9,8 @@ void SimulatedBattery::advance(bool is_airborne, double dt_s) noexcept {
   state_ = dynamics::after_power(parameters_.battery, state_, power_w, dt_s);
   current_a_ = dynamics::current_for(parameters_.battery, state_, power_w);
 }
+
+void SimulatedBattery::charge(double share) noexcept { state_.charge = std::min(1.0, state_.charge + share); }
 
 bool SimulatedBattery::is_empty() const noexcept {
   return !dynamics::can_deliver(parameters_.battery, state_, parameters_.hover_power_w);

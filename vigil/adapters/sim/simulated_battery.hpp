@@ -19,6 +19,9 @@ class SimulatedBattery {
 
   void advance(bool is_airborne, double dt_s) noexcept;
 
+  /// Puts a share of what it can hold into it; what is too much is lost. Precondition: >= 0.
+  void charge(double share) noexcept;
+
   /// The battery delivers no more what hovering takes.
   [[nodiscard]] bool is_empty() const noexcept;
 
@@ -26,7 +29,7 @@ class SimulatedBattery {
   /// new battery's resistance for. An old battery is reported to hold less than it does.
   [[nodiscard]] double reported() const noexcept;
 
-  [[nodiscard]] double charge() const noexcept { return state_.charge; }
+  [[nodiscard]] double state_of_charge() const noexcept { return state_.charge; }
 
  private:
   BatteryParameters parameters_;

@@ -41,10 +41,13 @@ SimulatedFleet::SimulatedFleet(const FleetParameters& parameters, std::span<cons
                                parallel::Workers* workers)
     : dt_s_(parameters.dt_s),
       positions_over_link_(parameters.positions_over_link),
+      pads_(parameters.pads),
       confusion_(parameters.confusion, starts.size(),
                  dynamics::RandomStream(parameters.seed, kWholeFleet, kConfusionPurpose)),
       truth_(starts.size()),
       workers_(workers) {
+  for (const swarm::ChargingPad& pad : pads_)
+    if (pad.station >= has_failed_.size()) has_failed_.resize(pad.station + 1, false);
   drones_.reserve(starts.size());
   for (std::size_t i = 0; i < starts.size(); ++i) {
     drones_.push_back(make_drone(parameters, i, starts[i]));
@@ -111,9 +114,22 @@ void SimulatedFleet::order(runtime::MissionTime, std::span<const swarm::DroneOrd
 
 void SimulatedFleet::advance(double dt_s) noexcept {
   for_each_drone([&](Drone& drone, std::size_t i) {
+    charge(drone, dt_s);
     drone.vehicle.advance(dt_s, drone.wind.advance(drone.vehicle.is_airborne(), dt_s));
     truth_[i] = drone.vehicle.truth();
   });
+}
+
+/// By the pad that it stands on, if it stands on one.
+void SimulatedFleet::charge(Drone& drone, double dt_s) const noexcept {
+  if (drone.vehicle.is_airborne()) return;
+  for (const swarm::ChargingPad& pad : pads_)
+    if (!has_failed_[pad.station] && (drone.vehicle.truth().position - pad.place).norm() <= pad.radius_m)
+      return drone.vehicle.charge(dt_s / pad.full_in_s);
+}
+
+void SimulatedFleet::set_station(std::size_t station, bool charges) noexcept {
+  if (station < has_failed_.size()) has_failed_[station] = !charges;
 }
 
 void SimulatedFleet::fail(swarm::DroneId drone) noexcept { drones_[drone.index()].vehicle.fail(); }

@@ -9,6 +9,7 @@
 #include "vigil/adapters/sim/simulated_wind.hpp"
 #include "vigil/core/parallel/workers.hpp"
 #include "vigil/runtime/fleet.hpp"
+#include "vigil/swarm/charging_pad.hpp"
 
 namespace vigil::sim {
 
@@ -22,6 +23,7 @@ struct FleetParameters {
   double dt_s = 0.02;                ///< of the control tick
   std::uint64_t seed = 1;
   bool starts_flying = true;
+  std::vector<swarm::ChargingPad> pads;
   std::vector<bool> stays_down;  ///< of each drone: it is on the ground all the same; empty: none
 };
 
@@ -48,6 +50,7 @@ class SimulatedFleet : public runtime::VirtualFleet {
   void hide(swarm::DroneId drone, double for_s) noexcept override;
   void cut_link(swarm::DroneId drone, double for_s) noexcept override;
   void befall(swarm::DroneId drone, const runtime::Mishap& mishap) noexcept override;
+  void set_station(std::size_t station, bool charges) noexcept override;
 
  private:
   /// What a vehicle sends.
@@ -74,6 +77,7 @@ class SimulatedFleet : public runtime::VirtualFleet {
 
   [[nodiscard]] Drone make_drone(const FleetParameters& parameters, std::size_t number, const Vec2& start) const;
   void hear(Drone& drone) noexcept;
+  void charge(Drone& drone, double dt_s) const noexcept;
   void report(const Drone& drone, swarm::DroneObservation& out) const noexcept;
   /// Calls body(drone, index) for every drone, part by part.
   template <typename Body>
@@ -82,6 +86,8 @@ class SimulatedFleet : public runtime::VirtualFleet {
   double dt_s_;
   bool positions_over_link_;
   std::vector<Drone> drones_;
+  std::vector<swarm::ChargingPad> pads_;
+  std::vector<bool> has_failed_;  ///< of each station
   BodyConfusion confusion_;
   std::vector<runtime::TruthSample> truth_;
   std::uint64_t tick_ = 0;

@@ -100,6 +100,8 @@ void SimulatedVehicle::arrive() noexcept {
 void SimulatedVehicle::watch_battery(double dt_s) noexcept {
   if (!battery_) return;
   battery_->advance(is_airborne(), dt_s);
+  truth_.charge = battery_->state_of_charge();
+  truth_.ran_empty = truth_.ran_empty || (is_airborne() && battery_->is_empty());
   if (!is_airborne() || truth_.mode == VehicleMode::kFalling || !battery_->is_empty()) return;
   truth_.mode = VehicleMode::kLanding;
   command_.setZero();

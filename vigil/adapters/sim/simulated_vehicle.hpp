@@ -60,6 +60,10 @@ class SimulatedVehicle {
     drifts_s_ = for_s;
   }
   void land_by_itself() noexcept;
+  /// On the ground, a share of what its battery can hold is put into it.
+  void charge(double share) noexcept {
+    if (battery_ && !is_airborne()) battery_->charge(share);
+  }
 
   [[nodiscard]] const runtime::TruthSample& truth() const noexcept { return truth_; }
   [[nodiscard]] bool is_airborne() const noexcept { return truth_.mode != swarm::VehicleMode::kGrounded; }

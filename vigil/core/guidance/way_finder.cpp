@@ -12,8 +12,19 @@ void WayFinder::ground_changed(std::span<const field::Segment> no_fly) noexcept 
   for (Leg& leg : legs_) leg.is_known = false;
 }
 
-void WayFinder::begin_tick(std::size_t travellers) noexcept {
+void WayFinder::work() noexcept {
   if (!map_.is_ready()) map_.work(kLooksATick);
+}
+
+double WayFinder::length_m(const Vec2& from, const Vec2& to) noexcept {
+  const double straight_m = (to - from).norm();
+  if (map_.corners().empty() || map_.sees(from, to)) return straight_m;
+  const std::optional<Way> way = map_.way(from, to);
+  return way ? way->length_m : straight_m;
+}
+
+void WayFinder::begin_tick(std::size_t travellers) noexcept {
+  work();
   period_ = 1 + travellers * map_.looks_of_a_way() / kLooksATick;
   ++tick_;
   asked_ = 0;

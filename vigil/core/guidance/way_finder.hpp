@@ -26,9 +26,15 @@ class WayFinder {
   /// Once a tick, before next(), which will be called for so many drones, once each: goes on making the map.
   void begin_tick(std::size_t travellers) noexcept;
 
+  /// Goes on making the map, also where nobody travels.
+  void work() noexcept;
+
   /// Where the drone flies straight to now, on its way to `goal`; `goal` itself where it sees it, where no way is known
   /// or it is not its turn yet. Precondition: drone < drones; finite.
   [[nodiscard]] Vec2 next(std::size_t drone, const Vec2& position, const Vec2& goal) noexcept;
+
+  /// The length of the shortest way; the straight line's where none is known. Precondition: finite.
+  [[nodiscard]] double length_m(const Vec2& from, const Vec2& to) noexcept;
 
   [[nodiscard]] const WayMap& map() const noexcept { return map_; }
 

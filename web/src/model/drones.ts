@@ -73,6 +73,18 @@ export const kActivities: readonly ActivityWords[] = [
     'It does not fly what it is told; the others give way. Land it, or let a pilot take it.',
   ),
   activity('outside', 'Outside', 'alarm', 'It left the field and is told to come back. Watch it.'),
+  activity(
+    'returning',
+    'To a pad',
+    'info',
+    'It flies to a pad to have its battery charged, and covers again by itself. Hold or Land takes that back.',
+  ),
+  activity(
+    'charging',
+    'Charging',
+    'info',
+    'It stands on a pad and rises by itself when it is charged. Land keeps it down.',
+  ),
 ];
 
 const kUnknownActivity = activity('unknown', 'Unknown', 'warning', 'This console does not know that state.');
