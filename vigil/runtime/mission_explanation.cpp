@@ -105,6 +105,11 @@ std::string explain_drones(const Mission& mission) {
   text += line("swarm", fmt::format("{}: {}", mission.drones.size(), ids));
   text += line("sees", fmt::format("places within {}",
                                    given_or_default(mission.sensor.footprint_radius_m, footprint_radius_m(mission))));
+  for (const StationEntry& station : mission.stations) {
+    text +=
+        line("station", fmt::format("{}: {} pad{}, an empty battery is full in {}", station.name, station.pads_m.size(),
+                                    station.pads_m.size() == 1 ? "" : "s", in_words(station.full_in_s, "s")));
+  }
   return text;
 }
 
