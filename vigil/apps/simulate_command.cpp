@@ -52,6 +52,12 @@ void print_for_people(const runtime::FlightSummary& summary, const fs::path& out
   fmt::print("  fastest            {:.3f} m/s\n", audit.max_speed_m_s);
   fmt::print("  violations         {} separation, {} wall, {} no-fly, {} speed (by ground truth)\n",
              audit.separation_violations, audit.wall_violations, audit.no_fly_violations, audit.speed_violations);
+  if (summary.energy) {
+    const nlohmann::ordered_json energy = summary.energy->to_json(audit);
+    fmt::print("  charging           {} charges, {:.2f} drones away on average, {} at most; {} ran empty in the air\n",
+               energy["charges"].get<std::uint64_t>(), energy["mean_away"].get<double>(),
+               energy["most_away"].get<std::uint64_t>(), energy["ran_empty"].get<std::uint64_t>());
+  }
   fmt::print("  written to         {}\n  figures            vigil report {}\n", in_words(out), in_words(out));
 }
 

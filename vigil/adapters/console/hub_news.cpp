@@ -330,7 +330,9 @@ Json Hub::state() const {
                       {"link_age_s", drone.link_age_s},
                       {"battery", drone.battery},
                       {"battery_time_left_s", time_left ? Json(time_left->s) : Json(nullptr)},
-                      {"battery_time_left_least_s", time_left ? Json(time_left->least_s) : Json(nullptr)}});
+                      {"battery_time_left_least_s", time_left ? Json(time_left->least_s) : Json(nullptr)},
+                      {"pad", drone.pad >= 0 ? Json(drone.pad) : Json(nullptr)},
+                      {"leaves_in_s", std::isfinite(drone.leaves_in_s) ? Json(drone.leaves_in_s) : Json(nullptr)}});
   }
   Json state{{"run", setup_.run},
              {"epoch", flight_->epoch()},

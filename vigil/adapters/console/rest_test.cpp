@@ -128,6 +128,8 @@ TEST_F(RestTest, The_state_is_the_swarms_in_the_world_frame) {
   EXPECT_NEAR(drone.at("position_m").at(0), -0.5, 0.1);  // where it started, but for 0.1 s of flight
   EXPECT_NEAR(drone.at("position_m").at(1), 10.5, 0.1);
   EXPECT_TRUE(drone.at("battery_time_left_s").is_null());  // without a battery that is reported
+  EXPECT_TRUE(drone.at("pad").is_null());                  // nor stations
+  EXPECT_TRUE(drone.at("leaves_in_s").is_null());
 }
 
 TEST_F(RestTest, The_mission_is_given_as_json_or_as_a_file_that_can_be_flown) {

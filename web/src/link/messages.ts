@@ -58,7 +58,11 @@ const displayShape = record({
 const missionShape = record({
   epoch: finite,
   fleet: oneOf('SIM', 'LIVE', 'REPLAY'),
-  mission: record({ name, drones: list(record({ id: text(64) }), 200_000) }),
+  mission: record({
+    name,
+    drones: list(record({ id: text(64) }), 200_000),
+    stations: maybe(list(record({ name, pads_m: list(point, 1000) }), 200)),
+  }),
   display: displayShape,
   recording: maybe(record({ begin_s: finite, end_s: finite, ticks: finite, spacing_s: finite, incomplete: sentence })),
 });

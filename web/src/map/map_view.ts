@@ -27,6 +27,7 @@ import {
 } from './pictures';
 import { RasterLayer, type Placement } from './raster_layer';
 import { drawSketch } from './sketch_overlay';
+import { drawStations } from './stations_overlay';
 import { drawTargets } from './targets_overlay';
 import { TrailLayer } from './trail_layer';
 
@@ -455,6 +456,7 @@ export class MapView {
       editedBy: this.editedBy(),
       overdue: new Set(session.status.value?.areas.filter((area) => area.is_overdue).map((area) => area.name)),
     });
+    drawStations(pen, session.mission.value?.mission.stations ?? [], on.has('labels'));
     const preview = this.foresight.answer.value;
     if (session.snapshot && preview && preview.epoch === session.mission.value?.epoch)
       drawGhosts(pen, { preview, timeS: session.snapshot.timeS, selected: editor.selectedDrones.value });

@@ -373,7 +373,10 @@ describe('session', () => {
 
   it.each([
     ['is loaded', { epoch: 2 }],
-    ['comes with a restarted program', { mission: { name: 'test', drones: [{ id: 'd2' }, { id: 'd1' }] } }],
+    [
+      'comes with a restarted program',
+      { mission: { name: 'test', drones: [{ id: 'd2' }, { id: 'd1' }], stations: null } },
+    ],
   ])('When another mission %s nothing chosen or staged reaches it', (_, other) => {
     const { session, socket, editor, heavier } = begin();
     editor.selectDrones([1]);

@@ -18,7 +18,7 @@ export const kMission = {
   type: 'mission',
   epoch: 1,
   fleet: 'SIM',
-  mission: { name: 'test', drones: [{ id: 'd1' }, { id: 'd2' }] },
+  mission: { name: 'test', drones: [{ id: 'd1' }, { id: 'd2' }], stations: null },
   display: {
     field: { length_x_m: 3, length_y_m: 3, origin_m: [0, 0], yaw_rad: 0 },
     dt_s: 0.02,
