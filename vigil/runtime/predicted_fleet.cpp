@@ -1,6 +1,7 @@
 #include "vigil/runtime/predicted_fleet.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include "vigil/runtime/mission_setup.hpp"
 
@@ -30,7 +31,8 @@ PredictedVehicle predicted_vehicle(const Mission& mission, double lag_s) {
 PredictedFleet::PredictedFleet(const swarm::SwarmState& now, const PredictedVehicle& vehicle)
     : vehicle_(vehicle),
       seen_within_s_(now.parameters().health.tracking_timeout_s),
-      heard_within_s_(now.parameters().health.link_timeout_s) {
+      heard_within_s_(now.parameters().health.link_timeout_s),
+      pads_(now.parameters().recharge.pads) {
   drones_.reserve(now.drones().size());
   for (std::size_t i = 0; i < now.drones().size(); ++i) {
     DroneObservation drone = now.drones()[i].last_good;
@@ -40,6 +42,7 @@ PredictedFleet::PredictedFleet(const swarm::SwarmState& now, const PredictedVehi
     if (drone.age_s <= seen_within_s_) drone.age_s = 0.0;
     if (drone.link_age_s <= heard_within_s_) drone.link_age_s = 0.0;
     drones_.push_back(drone);
+    rates_per_s_.push_back(now.drones()[i].energy.rate_per_s());
   }
 }
 
@@ -76,6 +79,17 @@ void PredictedFleet::move(DroneObservation& drone, const swarm::DroneOrder& orde
   drone.velocity = after.velocity;
 }
 
+void PredictedFleet::wear(DroneObservation& drone, double rate_per_s, double dt_s) const noexcept {
+  if (pads_.empty() || !std::isfinite(drone.battery)) return;
+  if (drone.mode != VehicleMode::kGrounded) {
+    drone.battery = std::max(0.0, drone.battery - rate_per_s * dt_s);
+    return;
+  }
+  for (const swarm::ChargingPad& pad : pads_)
+    if ((drone.position - pad.place).norm() <= pad.radius_m)
+      drone.battery = std::min(1.0, drone.battery + dt_s / pad.full_in_s);
+}
+
 void PredictedFleet::advance(std::span<const swarm::DroneSnapshot> ordered, double dt_s) noexcept {
   for (std::size_t i = 0; i < drones_.size(); ++i) {
     DroneObservation& drone = drones_[i];
@@ -84,6 +98,7 @@ void PredictedFleet::advance(std::span<const swarm::DroneSnapshot> ordered, doub
     obey(drone, ordered[i].order.action);
     climb(drone, dt_s);
     move(drone, ordered[i].order, dt_s);
+    wear(drone, rates_per_s_[i], dt_s);
   }
 }
 

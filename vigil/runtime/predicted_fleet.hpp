@@ -25,7 +25,8 @@ struct PredictedVehicle {
 [[nodiscard]] PredictedVehicle predicted_vehicle(const Mission& mission, double lag_s);
 
 /// Drones as they will most likely fly: without noise, gusts, losses or faults, under orders that act at once. What is
-/// wrong with a drone stays wrong; its battery stays as it is; whoever has it (a pilot, nobody) lets it hover. One
+/// wrong with a drone stays wrong; where there are stations its battery is emptied as it has been, and charged on their
+/// pads, else it stays as it is; whoever has it (a pilot, nobody) lets it hover. One
 /// thread at a time.
 class PredictedFleet {
  public:
@@ -41,11 +42,14 @@ class PredictedFleet {
   void obey(swarm::DroneObservation& drone, swarm::Action action) const noexcept;
   void move(swarm::DroneObservation& drone, const swarm::DroneOrder& order, double dt_s) const noexcept;
   void climb(swarm::DroneObservation& drone, double dt_s) const noexcept;
+  void wear(swarm::DroneObservation& drone, double rate_per_s, double dt_s) const noexcept;
 
   PredictedVehicle vehicle_;
   double seen_within_s_;
   double heard_within_s_;
   std::vector<swarm::DroneObservation> drones_;
+  std::vector<swarm::ChargingPad> pads_;
+  std::vector<double> rates_per_s_;  ///< of each drone's battery in the air
 };
 
 }  // namespace vigil::runtime

@@ -1,5 +1,7 @@
 #include "vigil/runtime/predicted_fleet.hpp"
 
+#include <cmath>
+
 #include <gtest/gtest.h>
 
 #include "vigil/runtime/controller_setup.hpp"
@@ -94,6 +96,26 @@ TEST(PredictedVehicleTest, A_recorded_autopilot_is_its_gain_and_the_lag_that_the
   EXPECT_EQ(vehicle.motion.lag_s, 0.25);
   EXPECT_EQ(vehicle.gain, dynamics::steady_gain(vehicle_model(mission).horizontal));
   EXPECT_LT(vehicle.gain, 1.0);
+}
+
+TEST_F(PredictedFleetTest, Batteries_are_emptied_in_the_air_and_charged_on_pads_where_there_are_stations) {
+  mission.stations.push_back({.name = "s", .pads_m = {mission.drones[1].start_m}, .full_in_s = 100.0});
+  std::vector<swarm::DroneObservation> seen(3);
+  for (std::size_t i = 0; i < 3; ++i) {
+    seen[i] = {.position = starts_in_field(mission)[i], .height_m = 2.0, .age_s = 0.0, .link_age_s = 0.0};
+    seen[i].mode = VehicleMode::kFlying;
+  }
+  seen[0].battery = 0.8;
+  seen[1].battery = 0.5;
+  seen[1].mode = VehicleMode::kGrounded;
+  swarm::SwarmState state(swarm_parameters(mission, swarm::Intent::kHold));
+  swarm::Snapshot snapshot(3);
+  swarm::tick(state, seen, {}, snapshot);
+  PredictedFleet fleet(state, predicted_vehicle(mission, state.parameters().barrier.lag_s));
+  after(fleet, 100, Action::kNone);
+  EXPECT_NEAR(fleet.observations()[0].battery, 0.8 - 10.0 * state.drones()[0].energy.rate_per_s(), 1e-9);
+  EXPECT_NEAR(fleet.observations()[1].battery, 0.6, 1e-9);
+  EXPECT_TRUE(std::isnan(fleet.observations()[2].battery));  // not reported
 }
 
 }  // namespace

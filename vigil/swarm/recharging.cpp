@@ -84,6 +84,11 @@ Recharging::Recharging(const SwarmParameters& parameters)
   sorted_s_.reserve(pads_.size());
 }
 
+void Recharging::set_tick(double dt_s) noexcept {
+  dt_s_ = dt_s;
+  period_ = plan_period(dt_s);
+}
+
 void Recharging::decide(const Situation& now, Snapshot& out) noexcept {
   if (!has_pads()) return;
   now.ways.work();

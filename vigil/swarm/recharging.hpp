@@ -58,6 +58,9 @@ class Recharging {
   /// See DroneSnapshot::leaves_in_s.
   [[nodiscard]] double leaves_in_s(std::size_t drone) const noexcept { return visits_[drone].leaves_in_s; }
 
+  /// From now on a tick lasts so long. Precondition: > 0.
+  void set_tick(double dt_s) noexcept;
+
   /// A battery is full enough to go.
   static constexpr double kFull = 0.97;
 

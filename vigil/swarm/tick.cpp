@@ -143,6 +143,7 @@ void SwarmState::become_model(double dt_s) {
   parameters_.observation_delay_s = 0.0;
   look_ahead_.set_tick(dt_s);
   goal_seeker_.set_tick(dt_s);
+  recharging_.set_tick(dt_s);
   filter_ = safety::Filter(parameters_.barrier, parameters_.field, most_bodies(parameters_));
   flown_ = FlownOrders(parameters_.drones, dt_s, longest_prediction_s(parameters_));
   monitor_ = FaultMonitor({}, 0);
