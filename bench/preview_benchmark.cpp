@@ -68,7 +68,7 @@ class Flown {
     const ergodic::Basis basis(runtime::swarm_parameters(mission_, swarm::Intent::kCover).field,
                                mission_.control.basis_max_index, mission_.control.basis_smoothness);
     target_ = runtime::coverage_target(mission_, basis);
-    areas_.retarget(mission_, basis, target_->phi_k, 0.0);
+    areas_.retarget(mission_, basis, *target_, 0.0);
     runtime::LiveCommand command;
     command.swarm = {.kind = swarm::CommandKind::kSetTarget, .drone = {}, .target = target_};
     is_ready_ = flight_->loop().submit({command});

@@ -59,15 +59,15 @@ bool AreaWatch::has_shape(const Watched* one, const std::vector<Vec2>& shape) co
 
 void AreaWatch::watch(TargetName what, std::vector<Vec2> places, std::optional<double> deadline_s, double time_s) {
   if (const Watched* const before = known(what)) {
-    watched_.push_back({std::move(what), {}, before->log, deadline_s, before->is_overdue, {}, 0.0});
+    watched_.push_back({std::move(what), {}, before->log, deadline_s, before->is_overdue, {}});
     watched_.back().log.watch(std::move(places), time_s);
   } else {
     field::RevisitLog log(what.name, std::move(places), time_s);
-    watched_.push_back({std::move(what), {}, std::move(log), deadline_s, false, {}, 0.0});
+    watched_.push_back({std::move(what), {}, std::move(log), deadline_s, false, {}});
   }
 }
 
-void AreaWatch::retarget(const Mission& mission, const ergodic::Basis& basis, const ergodic::Coefficients& phi_k,
+void AreaWatch::retarget(const Mission& mission, const ergodic::Basis& basis, const swarm::CoverageTarget& target,
                          double time_s) {
   const field::Importance map = importance(mission);
   before_ = std::exchange(watched_, {});
@@ -77,7 +77,8 @@ void AreaWatch::retarget(const Mission& mission, const ergodic::Basis& basis, co
     const Watched* const before = known(watched_.back().what);
     watched_.back().region = has_shape(before, shape) ? before->region : make_region();
     watched_.back().shape = shape;
-    watched_.back().asked = share_of(watched_.back().region, phi_k);
+    watched_.back().asked = share_of(watched_.back().region, target.phi_k);
+    watched_.back().asked_protected = share_of(watched_.back().region, target.protected_k);
   };
   for (std::size_t n = 0; n < map.clusters.size(); ++n) {
     const ClusterEntry& entry = mission.targets.clusters[n];
@@ -109,7 +110,8 @@ std::vector<DeadlineChange> AreaWatch::see(std::span<const Vec2> positions, doub
   return changes;
 }
 
-std::vector<AreaState> AreaWatch::states(const ergodic::Coefficients& c_k, double time_s) const {
+std::vector<AreaState> AreaWatch::states(const ergodic::Coefficients& c_k, double time_s,
+                                         const swarm::ProtectedShare& protection) const {
   std::vector<AreaState> states;
   states.reserve(watched_.size());
   for (const Watched& one : watched_)
@@ -118,7 +120,8 @@ std::vector<AreaState> AreaWatch::states(const ergodic::Coefficients& c_k, doubl
                       .worst_s = one.log.worst_s(time_s),
                       .deadline_s = one.deadline_s,
                       .is_overdue = one.is_overdue,
-                      .asked = one.asked,
+                      .asked = protection.factor() * one.asked_protected +
+                               protection.rest_factor() * (one.asked - one.asked_protected),
                       .achieved = share_of(one.region, c_k)});
   return states;
 }

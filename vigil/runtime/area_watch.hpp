@@ -9,6 +9,8 @@
 #include "vigil/core/field/revisit.hpp"
 #include "vigil/runtime/mission.hpp"
 #include "vigil/runtime/target_edit.hpp"
+#include "vigil/swarm/command.hpp"
+#include "vigil/swarm/protection.hpp"
 
 namespace vigil::runtime {
 
@@ -21,6 +23,8 @@ struct AreaState {
   bool is_overdue = false;
   double asked = 0.0;     ///< the share of the density that falls on it
   double achieved = 0.0;  ///< the share of the drones' time that falls on it
+  /// The longest that a part of it will be unseen, as was looked ahead last; none: nobody did.
+  std::optional<double> foreseen_s = std::nullopt;
 };
 
 /// A deadline that was missed, or kept again.
@@ -35,14 +39,16 @@ struct DeadlineChange {
 /// it gets. A value: a copy watches on by itself. One thread at a time.
 class AreaWatch {
  public:
-  /// From time_s on these targets are meant. phi_k: their coefficients. What an area that was watched before has seen
-  /// stays where its shape is the same. Some milliseconds for each new shape.
-  void retarget(const Mission& mission, const ergodic::Basis& basis, const ergodic::Coefficients& phi_k, double time_s);
+  /// From time_s on these targets are meant; `target` is what they come to. What an area that was watched before has
+  /// seen stays where its shape is the same. Some milliseconds for each new shape.
+  void retarget(const Mission& mission, const ergodic::Basis& basis, const swarm::CoverageTarget& target,
+                double time_s);
   /// Active drones, at `positions` or on their ways past them, see what is within footprint_m. Deadlines that changed
   /// are in the result.
   [[nodiscard]] std::vector<DeadlineChange> see(std::span<const Vec2> positions, double footprint_m, double time_s);
-  /// c_k: the achieved coverage; one of another shape says that there is none yet.
-  [[nodiscard]] std::vector<AreaState> states(const ergodic::Coefficients& c_k, double time_s) const;
+  /// c_k: the achieved coverage; one of another shape says that there is none yet. protection: of the moment.
+  [[nodiscard]] std::vector<AreaState> states(const ergodic::Coefficients& c_k, double time_s,
+                                              const swarm::ProtectedShare& protection = {}) const;
 
  private:
   struct Watched {
@@ -53,6 +59,7 @@ class AreaWatch {
     bool is_overdue = false;
     ergodic::Coefficients region;  ///< the integral of f_k over it: a share of a density is a scalar product
     double asked = 0.0;
+    double asked_protected = 0.0;  ///< the part of it that is protected
   };
 
   [[nodiscard]] const Watched* known(const TargetName& what) const;

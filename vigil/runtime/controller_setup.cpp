@@ -101,10 +101,13 @@ std::shared_ptr<const swarm::CoverageTarget> coverage_target(const Mission& miss
                                                              field::GridShape shape) {
   auto target = std::make_shared<swarm::CoverageTarget>();
   target->no_fly = no_fly_edges(mission);
-  if (const auto density = field::rasterise(basis.field(), importance(mission), shape)) {
+  const field::Importance map = importance(mission);
+  if (const auto density = field::rasterise(basis.field(), map, shape)) {
     target->phi_k = ergodic::target_coefficients(basis, *density);
     target->has_targets = true;
   }
+  if (const auto density = field::rasterise_protected(basis.field(), map, shape); density && target->has_targets)
+    target->protected_k = ergodic::target_coefficients(basis, *density);
   return target;
 }
 

@@ -1,6 +1,7 @@
 #include "vigil/runtime/flight_summary.hpp"
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 
 #include <fmt/format.h>
@@ -25,13 +26,6 @@ std::vector<double> times_to_ask(const Mission& mission) {
 /// JSON has no infinity: what never was is null.
 nlohmann::ordered_json finite_or_null(double value) {
   return std::isfinite(value) ? nlohmann::ordered_json(value) : nlohmann::ordered_json(nullptr);
-}
-
-double quantile(std::vector<float> values, double share) {
-  if (values.empty()) return 0.0;
-  const auto at = static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size() - 1));
-  std::nth_element(values.begin(), values.begin() + at, values.end());
-  return static_cast<double>(values[static_cast<std::size_t>(at)]);
 }
 
 }  // namespace
@@ -59,7 +53,7 @@ void SummaryBuilder::begin_at(double from_s, std::optional<double> first_metric)
 
 void SummaryBuilder::add(const swarm::Snapshot& snapshot, double tick_us) {
   ++summary_.ticks;
-  tick_us_.push_back(static_cast<float>(tick_us));
+  tick_times_.add(std::chrono::nanoseconds(std::llround(1e3 * tick_us)));
   if (snapshot.fallback) ++summary_.fallback_ticks;
   faults_.add(snapshot);
   if (summary_.energy) summary_.energy->add(snapshot);
@@ -91,9 +85,10 @@ FlightSummary SummaryBuilder::finish(const AuditTotals& audit,
   if (summary.first_metric && asks_for_the_end)  // the last tick's velocities lead there
     summary.percent_at.emplace_back(ask_percent_at_s_[next_ask_], summary.last_percent);
   summary.complete = end_s >= asked_duration_s_ - 0.5 * dt_s_;
-  summary.tick_us_p50 = quantile(tick_us_, 0.5);
-  summary.tick_us_p99 = quantile(tick_us_, 0.99);
-  summary.tick_us_max = quantile(tick_us_, 1.0);
+  const LatenessFigures tick_times = tick_times_.figures();
+  summary.tick_us_p50 = tick_times.p50_us;
+  summary.tick_us_p99 = tick_times.p99_us;
+  summary.tick_us_max = tick_times.max_us;
   return summary;
 }
 

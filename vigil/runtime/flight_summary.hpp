@@ -12,6 +12,7 @@
 #include "vigil/runtime/fault_tally.hpp"
 #include "vigil/runtime/flight_audit.hpp"
 #include "vigil/runtime/goal_script.hpp"
+#include "vigil/runtime/lateness.hpp"
 #include "vigil/runtime/mission.hpp"
 #include "vigil/swarm/snapshot.hpp"
 
@@ -67,7 +68,7 @@ class SummaryBuilder {
   FaultTally faults_;
   std::vector<double> ask_percent_at_s_;  ///< ascending; those before next_ask_ are answered
   std::size_t next_ask_ = 0;
-  std::vector<float> tick_us_;
+  Lateness tick_times_;
   double from_s_ = 0.0;  ///< mission time before the first tick that is added
   double asked_duration_s_;
   double dt_s_;

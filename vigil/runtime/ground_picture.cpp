@@ -16,8 +16,8 @@ GroundPicture::GroundPicture(const Mission& mission)
       seen_(monitored_field(mission), grid_of(monitored_field(mission), kSeenCells)),
       last_places_(mission.drones.size()) {}
 
-void GroundPicture::retarget(const Mission& mission, const ergodic::Coefficients& phi_k, double time_s) {
-  watch_.retarget(mission, basis_, phi_k, time_s);
+void GroundPicture::retarget(const Mission& mission, const swarm::CoverageTarget& target, double time_s) {
+  watch_.retarget(mission, basis_, target, time_s);
 }
 
 void GroundPicture::note_way(std::size_t drone, const Vec2& from, const Vec2& to, double time_s) {
@@ -41,7 +41,8 @@ std::vector<DeadlineChange> GroundPicture::look(const swarm::Snapshot& snapshot)
 
 std::vector<AreaState> GroundPicture::areas(const LiveFrame& frame) const {
   const bool has_coverage = frame.past.coverage.has_samples;
-  return watch_.states(has_coverage ? frame.c_k : ergodic::Coefficients(), frame.snapshot.time_s);
+  return watch_.states(has_coverage ? frame.c_k : ergodic::Coefficients(), frame.snapshot.time_s,
+                       frame.snapshot.protection);
 }
 
 }  // namespace vigil::runtime

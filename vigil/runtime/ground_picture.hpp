@@ -18,8 +18,8 @@ class GroundPicture {
   /// Precondition: a mission that mission checks accepted.
   explicit GroundPicture(const Mission& mission);
 
-  /// From time_s on other targets are meant. phi_k: their coefficients.
-  void retarget(const Mission& mission, const ergodic::Coefficients& phi_k, double time_s);
+  /// From time_s on other targets are meant. `target`: what they come to.
+  void retarget(const Mission& mission, const swarm::CoverageTarget& target, double time_s);
   /// Takes in a tick that is newer than the last one. Deadlines that changed are in the result.
   [[nodiscard]] std::vector<DeadlineChange> look(const swarm::Snapshot& snapshot);
 

@@ -11,7 +11,7 @@ namespace {
 
 class GroundPictureTest : public ::testing::Test {
  protected:
-  GroundPictureTest() { picture.retarget(mission, target->phi_k, 0.0); }
+  GroundPictureTest() { picture.retarget(mission, *target, 0.0); }
 
   /// Drone `a` is at a place of the field at time_s, active or not; the others are on the ground.
   std::vector<DeadlineChange> look(double time_s, const Vec2& place, bool is_active = true) {
@@ -78,7 +78,7 @@ TEST_F(GroundPictureTest, A_target_that_stays_keeps_its_age_when_others_change) 
   (void)look(10.0, west);
   Mission changed = mission;
   changed.targets.areas[0].name = "renamed";
-  picture.retarget(changed, target->phi_k, 10.0);
+  picture.retarget(changed, *target, 10.0);
   EXPECT_EQ(state(0).age_s, 10.0);
   EXPECT_EQ(state(1).age_s, 0.0);  // for all that is known, a new one
 }
@@ -89,28 +89,28 @@ TEST_F(GroundPictureTest,
   const double asked = state(0).asked;
   mission.targets.clusters[0].weight = 5.0;
   const auto heavier = coverage_target(mission, picture.basis());
-  picture.retarget(mission, heavier->phi_k, 11.0);
+  picture.retarget(mission, *heavier, 11.0);
   frame.snapshot.time_s = 12.0;
   EXPECT_EQ(state(0).age_s, 2.0);
   EXPECT_GT(state(0).asked, asked);
   GroundPicture anew(mission);
-  anew.retarget(mission, heavier->phi_k, 11.0);
+  anew.retarget(mission, *heavier, 11.0);
   EXPECT_EQ(state(0).asked, anew.areas(frame)[0].asked);
 }
 
 TEST_F(GroundPictureTest, Another_outline_or_no_fly_polygon_is_another_region) {
   const auto asked_anew = [&] {
     GroundPicture anew(mission);
-    anew.retarget(mission, target->phi_k, 0.0);
+    anew.retarget(mission, *target, 0.0);
     return anew.areas(frame)[1].asked;
   };
   const double before = state(1).asked;
   mission.targets.areas[0].outline_m[2].x() += 0.3;
-  picture.retarget(mission, target->phi_k, 1.0);
+  picture.retarget(mission, *target, 1.0);
   EXPECT_EQ(state(1).asked, asked_anew());
   EXPECT_GT(state(1).asked, before);
   mission.no_fly.push_back({"pond", mission.targets.areas[0].outline_m});
-  picture.retarget(mission, target->phi_k, 2.0);
+  picture.retarget(mission, *target, 2.0);
   EXPECT_EQ(state(1).asked, asked_anew());
   EXPECT_LT(state(1).asked, before);
 }

@@ -7,7 +7,7 @@
 namespace vigil::runtime {
 namespace {
 
-constexpr double kBinsAnOctave = 8.0;
+constexpr double kBinsAnOctave = 32.0;
 
 }  // namespace
 

@@ -15,8 +15,8 @@ struct LatenessFigures {
   double max_us = 0.0;
 };
 
-/// A histogram of latenesses: eight bins an octave from 1 us to over an hour, so that quantiles are known to 9 %.
-/// Nothing allocates. One thread.
+/// A histogram of latenesses, or of how long ticks take: 32 bins an octave from 1 us to over an hour, so that quantiles
+/// are known to 2.2 %. Nothing allocates: a day takes no more memory than a second. One thread.
 class Lateness {
  public:
   void add(std::chrono::nanoseconds late) noexcept;
@@ -28,7 +28,7 @@ class Lateness {
  private:
   [[nodiscard]] double quantile_us(double share) const noexcept;
 
-  std::array<std::uint64_t, 256> bins_{};
+  std::array<std::uint64_t, 1024> bins_{};
   std::uint64_t count_ = 0;
   double max_us_ = 0.0;
 };

@@ -35,7 +35,8 @@ struct ClusterEntry {
   std::string name;
   std::vector<Vec2> points_m;  ///< world frame, at least one
   double weight = 1.0;
-  std::optional<double> revisit_s;  ///< deadline: no part of it unseen for longer
+  std::optional<double> revisit_s = std::nullopt;  ///< deadline: no part of it unseen for longer
+  bool is_protected = false;                       ///< keeps its drones where there are fewer
   friend bool operator==(const ClusterEntry&, const ClusterEntry&) = default;
 };
 
@@ -44,7 +45,8 @@ struct AreaEntry {
   std::vector<Vec2> outline_m;  ///< world frame, a simple polygon
   double weight = 5.0;          ///< counts like that many target points
   double soft_edge_m = 0.0;
-  std::optional<double> revisit_s;
+  std::optional<double> revisit_s = std::nullopt;
+  bool is_protected = false;
   friend bool operator==(const AreaEntry&, const AreaEntry&) = default;
 };
 

@@ -18,6 +18,8 @@ constexpr Range kLength{0.0, 1e5, false};
 constexpr Range kLengthOrZero{0.0, 1e5};
 constexpr Range kWeight{0.0, 1e6};
 constexpr Range kDeadline{0.0, 1e7, false};
+constexpr std::string_view kProtect =
+    "keeps the drones that it has with all of them where there are fewer, at the others' expense";
 constexpr std::size_t kMostVertices = 1000;
 
 bool is_identifier_character(char c) {
@@ -127,6 +129,7 @@ void describe(DescriptionVisitor& visitor, ClusterEntry& cluster) {
                   .unit = "s",
                   .default_text = "none"},
                  kDeadline, cluster.revisit_s);
+  visitor.truth({.name = "protect", .meaning = kProtect}, cluster.is_protected);
 }
 
 void describe(DescriptionVisitor& visitor, AreaEntry& area) {
@@ -146,6 +149,7 @@ void describe(DescriptionVisitor& visitor, AreaEntry& area) {
                   .unit = "s",
                   .default_text = "none"},
                  kDeadline, area.revisit_s);
+  visitor.truth({.name = "protect", .meaning = kProtect}, area.is_protected);
 }
 
 void describe(DescriptionVisitor& visitor, NoFlyEntry& no_fly) {

@@ -23,17 +23,18 @@ struct Share {
   double share = 0.0;
   std::size_t points = 0;
   std::optional<double> revisit_s;
+  bool is_protected = false;
 };
 
 std::vector<Share> shares_of(const Mission& mission) {
   std::vector<Share> shares;
   for (const ClusterEntry& cluster : mission.targets.clusters) {
     const std::size_t points = cluster.points_m.size();
-    shares.push_back(
-        {"cluster", cluster.name, cluster.weight * static_cast<double>(points), points, cluster.revisit_s});
+    shares.push_back({"cluster", cluster.name, cluster.weight * static_cast<double>(points), points, cluster.revisit_s,
+                      cluster.is_protected});
   }
   for (const AreaEntry& area : mission.targets.areas)
-    shares.push_back({"area", area.name, area.weight, 0, area.revisit_s});
+    shares.push_back({"area", area.name, area.weight, 0, area.revisit_s, area.is_protected});
   const double mass = std::accumulate(shares.begin(), shares.end(), 0.0,
                                       [](double sum, const Share& share) { return sum + share.share; });
   const double floor = mission.targets.uniform_floor;
@@ -81,6 +82,7 @@ std::string explain_share(const Share& share) {
   std::string text = fmt::format("{:5.1f} % {}", 100.0 * share.share, share.name);
   if (share.points > 0) text += fmt::format(", {} point{}", share.points, share.points == 1 ? "" : "s");
   if (share.revisit_s) text += fmt::format(", to be seen again within {}", in_words(*share.revisit_s, "s"));
+  if (share.is_protected) text += ", protected where drones are fewer";
   return line(share.kind, text);
 }
 
@@ -317,6 +319,7 @@ Json attention_json(const Mission& mission) {
     Json entry{{"kind", share.kind}, {"name", share.name}, {"share", share.share}};
     if (share.points > 0) entry["points"] = share.points;
     if (share.revisit_s) entry["revisit_s"] = *share.revisit_s;
+    if (share.is_protected) entry["protect"] = true;
     attention.push_back(std::move(entry));
   }
   return attention;

@@ -125,14 +125,18 @@ field::Cluster cluster_in_field(const Mission& mission, const ClusterEntry& clus
   std::vector<Vec2> targets;
   targets.reserve(cluster.points_m.size());
   for (const Vec2& point : cluster.points_m) targets.push_back(target_in_field(mission, point));
-  return {.name = cluster.name, .targets = std::move(targets), .weight = cluster.weight};
+  return {.name = cluster.name,
+          .targets = std::move(targets),
+          .weight = cluster.weight,
+          .is_protected = cluster.is_protected};
 }
 
 field::Area area_in_field(const Mission& mission, const AreaEntry& area) {
   return {.name = area.name,
           .outline = polygon_in_field(mission, area.outline_m),
           .weight = area.weight,
-          .soft_edge_m = area.soft_edge_m};
+          .soft_edge_m = area.soft_edge_m,
+          .is_protected = area.is_protected};
 }
 
 field::Importance importance(const Mission& mission) {

@@ -30,7 +30,7 @@ class AreaFutures {
   void look(const swarm::Snapshot& snapshot, const ergodic::Coefficients& c_k, double time_s) {
     gather_ways(snapshot);
     (void)watch_.see(ways_, footprint_m_, time_s);
-    const std::vector<AreaState> states = watch_.states(c_k, time_s);
+    const std::vector<AreaState> states = watch_.states(c_k, time_s, snapshot.protection);
     if (futures_.empty()) begin(states);
     worst_age_s_ = 0.0;
     for (std::size_t n = 0; n < states.size(); ++n) note(states[n], time_s - began_s_, futures_[n]);

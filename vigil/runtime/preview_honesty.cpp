@@ -22,7 +22,7 @@ class Observer {
   Observer(const Mission& mission, const VirtualFlight& flight)
       : flight_(flight), footprint_m_(footprint_radius_m(mission)), c_k_(flight.state().target().phi_k) {
     const ergodic::Basis& basis = flight.state().basis();
-    watch_.retarget(mission, basis, coverage_target(mission, basis)->phi_k, 0.0);
+    watch_.retarget(mission, basis, *coverage_target(mission, basis), 0.0);
   }
 
   void look() {
@@ -34,7 +34,7 @@ class Observer {
 
   [[nodiscard]] std::vector<AreaState> states() {
     flight_.state().statistics().average(c_k_);
-    return watch_.states(c_k_, time_s());
+    return watch_.states(c_k_, time_s(), flight_.state().protection());
   }
 
   [[nodiscard]] double time_s() const { return flight_.snapshot().time_s; }

@@ -20,7 +20,7 @@ constexpr const char* kMore = "sensor: {footprint_radius_m: 0.25}\nsimulation: {
 class PreviewTest : public ::testing::Test {
  protected:
   PreviewTest() {
-    watch.retarget(mission, flight.state().basis(), coverage_target(mission, flight.state().basis())->phi_k, 0.0);
+    watch.retarget(mission, flight.state().basis(), *coverage_target(mission, flight.state().basis()), 0.0);
     fly_until(5.0);
   }
 

@@ -87,6 +87,7 @@ class Maker {
       for (std::size_t n = dice_.below(5); n-- > 0;) cluster.points_m.push_back(place());
       cluster.weight = dice_.between(0.0, 3.0);
       cluster.revisit_s = dice_.maybe(1.0, 100.0);
+      cluster.is_protected = dice_.coin();
       targets.clusters.push_back(cluster);
     }
     for (std::size_t i = dice_.below(3); i-- > 0;) {
@@ -94,7 +95,8 @@ class Maker {
                                .outline_m = triangle(0.0),
                                .weight = dice_.between(0.0, 9.0),
                                .soft_edge_m = dice_.between(0.0, 1.0),
-                               .revisit_s = dice_.maybe(1.0, 100.0)});
+                               .revisit_s = dice_.maybe(1.0, 100.0),
+                               .is_protected = dice_.coin()});
     }
     targets.sigma_min_m = dice_.maybe(0.05, 0.5);
     targets.uniform_floor = dice_.between(0.0, 1.0);

@@ -68,7 +68,7 @@ void ReplayScene::retarget() {
   const double time_s = flight_.number() == 0 ? begin_s_ : flight_.snapshot().time_s;
   targets_ = targets_until(recording().targets(), time_s);
   mission_ = mission_at(first_, recording().targets(), time_s);
-  ground_.retarget(mission_, coverage_target(mission_, ground_.basis())->phi_k, time_s);
+  ground_.retarget(mission_, *coverage_target(mission_, ground_.basis()), time_s);
 }
 
 void ReplayScene::look() {

@@ -91,7 +91,7 @@ struct Apply {
   }
   std::string operator()(const AddPoint& edit) const {
     if (edit.what.kind == TargetKind::kCluster && find_named(targets.targets.clusters, edit.what.name) == nullptr)
-      targets.targets.clusters.push_back({edit.what.name, {}, 1.0, {}});
+      targets.targets.clusters.push_back({.name = edit.what.name, .points_m = {}});
     return with_entry(targets, edit.what, [&](auto& entry) {
       std::vector<Vec2>& points = points_of(entry);
       const std::size_t index = edit.index.value_or(points.size());
@@ -135,6 +135,15 @@ struct Apply {
         entry.revisit_s = edit.revisit_s;
       else
         return fmt::format("{} has no deadline", edit.what.name);
+      return std::string();
+    });
+  }
+  std::string operator()(const SetProtect& edit) const {
+    return with_entry(targets, edit.what, [&](auto& entry) {
+      if constexpr (requires { entry.is_protected; })
+        entry.is_protected = edit.is_protected;
+      else
+        return fmt::format("{} is watched by nobody", edit.what.name);
       return std::string();
     });
   }
@@ -182,6 +191,9 @@ struct InWords {
   std::string operator()(const SetRevisit& edit) const {
     if (!edit.revisit_s) return fmt::format("{}: no deadline", edit.what.name);
     return fmt::format("{}: deadline {:.6g} s", edit.what.name, *edit.revisit_s);
+  }
+  std::string operator()(const SetProtect& edit) const {
+    return fmt::format("{}: {}", edit.what.name, edit.is_protected ? "protected" : "no longer protected");
   }
   std::string operator()(const SetSoftEdge& edit) const {
     return fmt::format("{}: soft edge {:.6g} m", edit.what.name, edit.soft_edge_m);

@@ -64,6 +64,10 @@ struct SetRevisit {
   TargetName what;
   std::optional<double> revisit_s;
 };
+struct SetProtect {
+  TargetName what;
+  bool is_protected = false;
+};
 struct SetSoftEdge {
   TargetName what;
   double soft_edge_m = 0.0;
@@ -73,7 +77,7 @@ struct SetUniformFloor {
 };
 
 using TargetEdit = std::variant<AddEntry, ReplaceEntry, RemoveEntry, RenameEntry, AddPoint, MovePoint, RemovePoint,
-                                SetWeight, SetRevisit, SetSoftEdge, SetUniformFloor>;
+                                SetWeight, SetRevisit, SetProtect, SetSoftEdge, SetUniformFloor>;
 
 /// Changes `targets` as `edit` says. What cannot be done, because it is not there, is said in words, and nothing is
 /// changed; empty: done. The result may still be refused by the rules of mission files.

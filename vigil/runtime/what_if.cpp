@@ -16,7 +16,7 @@ std::optional<Outlook> changed_future(PreviewStart start, const WhatIf& question
     const ergodic::Basis& basis = start.state.basis();
     change.target = previewed_target(*question.targets, basis);
     const double now_s = static_cast<double>(start.state.ticks()) * start.state.parameters().dt_s;
-    start.areas.retarget(*question.targets, basis, change.target->phi_k, now_s);
+    start.areas.retarget(*question.targets, basis, *change.target, now_s);
   }
   return look_into_future(std::move(start), change, question.seconds, cancelled);
 }

@@ -13,7 +13,9 @@ namespace vigil::swarm {
 
 /// Where to look, ready for the controller. Made outside the tick, immutable afterwards.
 struct CoverageTarget {
-  ergodic::Coefficients phi_k;         ///< (K+1) x (K+1); ignored where has_targets is false
+  ergodic::Coefficients phi_k;  ///< (K+1) x (K+1); ignored where has_targets is false
+  /// Of the part that keeps its drones where there are fewer (Protection); of no size where nothing is protected.
+  ergodic::Coefficients protected_k;
   bool has_targets = false;            ///< false: nothing to look at, the drones hover
   std::vector<field::Segment> no_fly;  ///< edges, inside on the left; at most kMaxNoFlyEdges
 };

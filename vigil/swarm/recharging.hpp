@@ -53,10 +53,13 @@ class Recharging {
   /// time, it has not, and where both insist the safety filter lets both hover. Field frame.
   void make_way(std::span<const DroneMemory> drones, std::span<Vec2> u_nom) const noexcept;
 
-  /// The pad that is kept for a drone; -1: none. Precondition of both: has_pads().
+  /// The pad that is kept for a drone; -1: none. Precondition of all three: has_pads().
   [[nodiscard]] std::int32_t pad_of(std::size_t drone) const noexcept { return visits_[drone].pad; }
   /// See DroneSnapshot::leaves_in_s.
   [[nodiscard]] double leaves_in_s(std::size_t drone) const noexcept { return visits_[drone].leaves_in_s; }
+
+  /// See DroneSnapshot::away_for_s.
+  [[nodiscard]] double away_for_s(std::size_t drone) const noexcept { return visits_[drone].away_for_s; }
 
   /// From now on a tick lasts so long. Precondition: > 0.
   void set_tick(double dt_s) noexcept;
@@ -69,6 +72,7 @@ class Recharging {
   struct Visit {
     std::int32_t pad = -1;
     double leaves_in_s = kNobodyPlans;
+    double away_for_s = kNobodyPlans;
     Vec2 beside = Vec2::Zero();  ///< from its pad to it, over a second or so: single sightings are not that good
     double near_s = 0.0;         ///< kFly: it has been close to its pad for so long
     double down_s = 0.0;         ///< kFly, kLand: it has been on the ground for so long
@@ -116,6 +120,7 @@ class Recharging {
   void move_on(const Situation& now, std::size_t drone) noexcept;
   void measure_ways(const Situation& now) noexcept;
   void plan(const Situation& now) noexcept;
+  void foresee_returns(const Situation& now) noexcept;
   void gather_candidates(const Situation& now) noexcept;
   void plan_turns(const Situation& now, std::size_t most_away) noexcept;
   void plan_pads(const Situation& now) noexcept;

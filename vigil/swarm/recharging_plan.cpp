@@ -46,6 +46,13 @@ bool is_in_turn(const DroneMemory& memory) {
 
 }  // namespace
 
+void Recharging::foresee_returns(const Situation& now) noexcept {
+  for (std::size_t drone = 0; drone < visits_.size(); ++drone) {
+    const bool comes_back = visits_[drone].pad >= 0 && is_in_turn(now.drones[drone]);
+    visits_[drone].away_for_s = comes_back ? back_in_s(now.drones[drone], drone) : kNobodyPlans;
+  }
+}
+
 /// Those first whose batteries end first.
 void Recharging::gather_candidates(const Situation& now) noexcept {
   candidates_.clear();
@@ -166,6 +173,7 @@ double Recharging::too_soon_s() const noexcept {
 }
 
 void Recharging::plan(const Situation& now) noexcept {
+  foresee_returns(now);
   gather_candidates(now);
   const std::size_t pads = usable_pads(now);
   if (pads == 0 || candidates_.empty()) return;
@@ -181,8 +189,11 @@ void Recharging::plan(const Situation& now) noexcept {
   planned_away_ = turns;
   are_pads_short_ = turns >= most && too_soon_s() > kStillGoodS;
   if (are_pads_short_) plan_pads(now);
-  for (std::size_t n = 0; n < candidates_.size(); ++n)
-    visits_[candidates_[n].drone].leaves_in_s = std::max(0.0, turns_[n].leave_s);
+  for (std::size_t n = 0; n < candidates_.size(); ++n) {
+    Visit& visit = visits_[candidates_[n].drone];
+    visit.leaves_in_s = std::max(0.0, turns_[n].leave_s);
+    visit.away_for_s = time_away_s(way_to_one_of_s(candidates_[n].drone, turns) + landing_s_);
+  }
   send_whose_time_it_is(now, turns);
 }
 

@@ -9,6 +9,7 @@
 #include "vigil/swarm/activity.hpp"
 #include "vigil/swarm/drone_id.hpp"
 #include "vigil/swarm/fault.hpp"
+#include "vigil/swarm/protection.hpp"
 
 namespace vigil::swarm {
 
@@ -37,6 +38,9 @@ struct DroneSnapshot {
   std::int32_t pad = -1;        ///< that is kept for it, as it was sent there or stands there; -1: none
   /// When it is to be sent to a pad, s from now; 0 for who is away. Infinity: nobody plans that.
   double leaves_in_s = std::numeric_limits<double>::infinity();
+  /// ... and how long it will take from then on, or from now where it is away, until it covers again. Infinity: never,
+  /// as far as is known.
+  double away_for_s = std::numeric_limits<double>::infinity();
 };
 
 /// Why no drone covers anything.
@@ -71,6 +75,7 @@ struct Snapshot {
   double metric = 0.0;          ///< eps of (4)
   double metric_percent = 0.0;  ///< of the first metric since the mission or coverage was started afresh
   std::size_t active = 0;       ///< |I_a(t)| of (13)
+  ProtectedShare protection;    ///< what protected parts get of all attention
   Idle idle = Idle::kNone;
   bool fallback = false;  ///< for some drone no velocity satisfied every row
   std::vector<DroneSnapshot> drones;

@@ -50,7 +50,11 @@ WatchSetup watch_setup(const SwarmParameters& parameters) {
 bool fits(const CoverageTarget& target, const ergodic::Basis& basis) {
   const bool has_shape =
       target.phi_k.rows() == basis.indices_per_axis() && target.phi_k.cols() == basis.indices_per_axis();
-  return target.no_fly.size() <= kMaxNoFlyEdges && (!target.has_targets || (has_shape && target.phi_k.allFinite()));
+  const bool has_protected_shape =
+      target.protected_k.size() == 0 ||
+      (target.protected_k.rows() == target.phi_k.rows() && target.protected_k.cols() == target.phi_k.cols());
+  const bool is_usable = has_shape && target.phi_k.allFinite() && has_protected_shape && target.protected_k.allFinite();
+  return target.no_fly.size() <= kMaxNoFlyEdges && (!target.has_targets || is_usable);
 }
 
 bool are_equal(const field::Segment& one, const field::Segment& other) { return one.a == other.a && one.b == other.b; }
@@ -85,6 +89,7 @@ SwarmState::SwarmState(const SwarmParameters& parameters)
       monitor_(watch_setup(parameters), parameters.drones),
       recharging_(parameters),
       target_(no_target(basis_)),
+      protection_(basis_),
       drones_(parameters.drones),
       notes_(parts_of(parameters.drones)),
       activities_before_(parameters.drones),
@@ -155,6 +160,7 @@ void SwarmState::set_target(const CoverageTarget& target) noexcept {
   else
     target_.phi_k.setZero();
   target_.has_targets = target.has_targets;
+  protection_.retarget(target_.phi_k, target.has_targets ? target.protected_k : ergodic::Coefficients());
   const bool is_same_ground = std::ranges::equal(target_.no_fly, target.no_fly, are_equal);
   target_.no_fly.assign(target.no_fly.begin(), target.no_fly.end());
   if (!is_same_ground) ways_.ground_changed(target_.no_fly);
@@ -191,6 +197,7 @@ void SwarmState::take_commands(std::span<const Command> commands, Snapshot& out)
       out.note(event);
     } else if (command.kind == CommandKind::kStartAfresh) {
       statistics_.reset();
+      protection_.start_afresh();
       has_first_metric_ = false;
       look_ahead_.decide_at_once();
       out.note({.kind = EventKind::kStartedAfresh});
@@ -311,9 +318,12 @@ void SwarmState::measure_coverage(Snapshot& out, parallel::Workers* workers) noe
   // Hovering for want of targets is no coverage: it would weigh on the statistics of the targets to come.
   if (target_.has_targets) statistics_.add_by(add_basis, active_.size(), active_set_, parameters_.dt_s);
   statistics_.average(c_k_);
+  const double remembered = statistics_.share_of_newest(parameters_.dt_s, active_.size());
+  protection_.follow(active_.size(), drones_.size(), parameters_.dt_s, remembered);
+  out.protection = protection_.share();
 
   out.has_metric = target_.has_targets && statistics_.has_samples();
-  out.metric = out.has_metric ? ergodic::ergodic_metric(basis_, c_k_, target_.phi_k) : 0.0;  // (4)
+  out.metric = out.has_metric ? ergodic::ergodic_metric(basis_, c_k_, protection_.asked_k()) : 0.0;  // (4)
   if (out.has_metric && !has_first_metric_) {
     first_metric_ = out.metric;
     has_first_metric_ = true;
@@ -322,7 +332,7 @@ void SwarmState::measure_coverage(Snapshot& out, parallel::Workers* workers) noe
 }
 
 void SwarmState::go_down_the_gradient(parallel::Workers* workers) noexcept {
-  a_k_.array() = basis_.weight().array() * (c_k_ - target_.phi_k).array();  // lambda_k (c_k - phi_k)
+  a_k_.array() = basis_.weight().array() * (c_k_ - protection_.asked_k()).array();  // lambda_k (c_k - phi_k)
   const auto steer = [&](std::size_t first, std::size_t last, std::size_t thread) {
     std::array<Vec2, kPart> slopes;
     const std::span<const Vec2> positions = std::span(active_positions_).subspan(first, last - first);
@@ -341,7 +351,7 @@ void SwarmState::look_ahead() noexcept {
                                       .no_fly_distance_m = safety::no_fly_radius(barrier, reserve_m),
                                       .no_fly = target_.no_fly};
   active_u_.resize(active_.size());  // within its capacity
-  look_ahead_.steer(kernels_[0], statistics_, target_.phi_k, region, departures_, active_u_);
+  look_ahead_.steer(kernels_[0], statistics_, protection_.asked_k(), region, departures_, active_u_);
   for (std::size_t i = 0; i < active_.size(); ++i) u_nom_[active_[i]] = active_u_[i];
 }
 
@@ -407,6 +417,7 @@ void SwarmState::write_order(std::size_t index, DroneSnapshot& to) noexcept {
   if (!recharging_.has_pads()) return;
   to.pad = recharging_.pad_of(index);
   to.leaves_in_s = recharging_.leaves_in_s(index);
+  to.away_for_s = recharging_.away_for_s(index);
 }
 
 void SwarmState::write_orders(Snapshot& out, parallel::Workers* workers) noexcept {

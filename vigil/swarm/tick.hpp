@@ -17,6 +17,7 @@
 #include "vigil/swarm/flown_orders.hpp"
 #include "vigil/swarm/observation.hpp"
 #include "vigil/swarm/parameters.hpp"
+#include "vigil/swarm/protection.hpp"
 #include "vigil/swarm/recharging.hpp"
 #include "vigil/swarm/snapshot.hpp"
 
@@ -40,6 +41,8 @@ class SwarmState {
   [[nodiscard]] const SwarmParameters& parameters() const { return parameters_; }
   [[nodiscard]] const ergodic::Basis& basis() const { return basis_; }
   [[nodiscard]] const CoverageTarget& target() const { return target_; }
+  /// Whom the target's protected parts leave how much.
+  [[nodiscard]] const ProtectedShare& protection() const { return protection_.share(); }
   [[nodiscard]] const ergodic::CoverageStatistics& statistics() const { return statistics_; }
   /// How many ticks have been run.
   [[nodiscard]] std::uint64_t ticks() const { return ticks_; }
@@ -131,6 +134,7 @@ class SwarmState {
   FaultMonitor monitor_;
   Recharging recharging_;
   CoverageTarget target_;
+  Protection protection_;
   double fade_delta_ = 0.0;
   double first_metric_ = 0.0;
   bool has_first_metric_ = false;

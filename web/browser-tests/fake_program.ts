@@ -97,8 +97,8 @@ export class FakeProgram {
     this.say({
       ...this.emptyTargets(),
       revision: 2,
-      clusters: [{ name: 'east', points_m: [[2.2, 1.6], [2.4, 1.8], [2.3, 1.4]], weight: 2, revisit_s: 30 }], // prettier-ignore
-      areas: [{ name: 'ridge', outline_m: [[0.4, 2.2], [1.4, 2.4], [1.2, 2.8], [0.5, 2.7]], weight: 5, soft_edge_m: 0, revisit_s: 30 }], // prettier-ignore
+      clusters: [{ name: 'east', points_m: [[2.2, 1.6], [2.4, 1.8], [2.3, 1.4]], weight: 2, revisit_s: 30, protect: false }], // prettier-ignore
+      areas: [{ name: 'ridge', outline_m: [[0.4, 2.2], [1.4, 2.4], [1.2, 2.8], [0.5, 2.7]], weight: 5, soft_edge_m: 0, revisit_s: 30, protect: false }], // prettier-ignore
       no_fly: [{ name: 'road', outline_m: [[1.3, 0.5], [1.8, 0.6], [1.7, 1.2]] }], // prettier-ignore
     });
   }

@@ -5,6 +5,7 @@ import './look/layout.css';
 import './look/controls.css';
 import './look/top_bar.css';
 import './look/panels.css';
+import './look/charging.css';
 import './look/overlays.css';
 import './look/foresight.css';
 import './look/replay.css';

@@ -37,8 +37,9 @@ ordered_json feature(ordered_json geometry, ordered_json properties) {
 }
 
 template <typename Entry>
-void put_revisit(ordered_json& properties, const Entry& entry) {
+void put_wishes(ordered_json& properties, const Entry& entry) {
   if (entry.revisit_s) properties["revisit_s"] = *entry.revisit_s;
+  if (entry.is_protected) properties["protect"] = true;
 }
 
 std::vector<Vec2> points_in(const json& list, const std::string& place) {
@@ -91,11 +92,12 @@ std::vector<TargetEntry> entries_in(const JsonReader& properties, const JsonRead
   };
   const std::optional<double> revisit_s =
       properties.has("revisit_s") ? std::optional(properties.number("revisit_s")) : std::nullopt;
+  const bool is_protected = properties.has("protect") && properties.flag("protect");
   const std::string name = properties.has("name") ? properties.text("name", kMostNameBytes) : std::string();
   const bool is_point = type == "Point";
   if (is_point || type == "MultiPoint")
     return {runtime::ClusterEntry{name, points_in(is_point ? json::array({coordinates}) : coordinates, place),
-                                  number("weight", 1.0), revisit_s}};
+                                  number("weight", 1.0), revisit_s, is_protected}};
   if (type != "Polygon" && type != "MultiPolygon")
     shape.refuse("type", "must be Point, MultiPoint, Polygon or MultiPolygon");
   const bool is_no_fly = properties.has("kind") && properties.text("kind", kMostWordBytes) == "no_fly";
@@ -108,7 +110,7 @@ std::vector<TargetEntry> entries_in(const JsonReader& properties, const JsonRead
       entries.emplace_back(runtime::NoFlyEntry{std::move(own), std::move(outline)});
     else
       entries.emplace_back(runtime::AreaEntry{std::move(own), std::move(outline), number("weight", 5.0),
-                                              number("soft_edge_m", 0.0), revisit_s});
+                                              number("soft_edge_m", 0.0), revisit_s, is_protected});
   }
   return entries;
 }
@@ -182,13 +184,13 @@ ordered_json areas_geojson(const runtime::Mission& mission) {
   ordered_json features = ordered_json::array();
   for (const runtime::ClusterEntry& entry : mission.targets.clusters) {
     ordered_json properties{{"kind", "cluster"}, {"name", entry.name}, {"weight", entry.weight}};
-    put_revisit(properties, entry);
+    put_wishes(properties, entry);
     features.push_back(feature({{"type", "MultiPoint"}, {"coordinates", positions(entry.points_m)}}, properties));
   }
   for (const runtime::AreaEntry& entry : mission.targets.areas) {
     ordered_json properties{
         {"kind", "area"}, {"name", entry.name}, {"weight", entry.weight}, {"soft_edge_m", entry.soft_edge_m}};
-    put_revisit(properties, entry);
+    put_wishes(properties, entry);
     features.push_back(feature(polygon(entry.outline_m), properties));
   }
   for (const runtime::NoFlyEntry& entry : mission.no_fly)

@@ -1,5 +1,7 @@
 #include "vigil/adapters/console/desk.hpp"
 
+#include <limits>
+#include <mutex>
 #include <utility>
 
 #include "vigil/adapters/console/density_picture.hpp"
@@ -89,7 +91,8 @@ void Desk::retarget(std::uint64_t ticket) {
   unsent_ = command;
   if (flight_->recorder() != nullptr) flight_->recorder()->expect(recent_targets_.back(), runtime::targets_of(mission));
   submit_target();
-  ground_->retarget(mission, recent_targets_.back()->phi_k, frame_->snapshot.time_s);
+  ground_->retarget(mission, *recent_targets_.back(), frame_->snapshot.time_s);
+  foresight_.retarget(mission);
 }
 
 void Desk::submit_target() {
@@ -191,6 +194,8 @@ void Desk::look() {
   GroundNews news;
   news.deadlines = ground_->look(frame_->snapshot);
   news.areas = ground_->areas(*frame_);
+  take_foreseen(news);
+  look_for_deadlines();
   news.coverage = shared(coverage_frame(ground_->basis().field(), *frame_, epoch_));
   news.age = shared(age_frame(ground_->seen(), frame_->snapshot.time_s, epoch_));
   news.tick = frame_->snapshot.tick;
@@ -198,6 +203,36 @@ void Desk::look() {
   tell_(std::move(news));
   const double since_save_s = frame_->snapshot.time_s - saved_at_s_;
   if (++looks_since_save_ >= kLooksASave || since_save_s >= kSaveEveryS) save();
+}
+
+/// Looks ahead by itself. Of so many drones that it would take long nobody asks it.
+void Desk::look_for_deadlines() {
+  constexpr std::size_t kMostDrones = 1000;
+  constexpr std::uint64_t kOwn = std::numeric_limits<std::uint64_t>::max();  // no client's
+  const swarm::Snapshot& now = frame_->snapshot;
+  if (now.drones.size() > kMostDrones || !foresight_.is_due(now.active, now.time_s)) return;
+  PreviewJob job{0, flight_, ground_->watch(), desk_->revision(), {}};
+  job.question.seconds = foresight_.horizon_s();
+  const auto work = [job = std::move(job), foreseen = foreseen_,
+                     active = now.active](const std::atomic<bool>& cancelled) {
+    std::optional<std::vector<runtime::AreaOutlook>> areas = areas_ahead(job, cancelled);
+    const std::scoped_lock lock(foreseen->mutex);
+    foreseen->areas = std::move(areas);
+    foreseen->revision = job.revision;
+    foreseen->epoch = job.flight->epoch();
+    foreseen->active = active;
+  };
+  (void)previews_.submit(kOwn, work);  // where too many wait, there is a next time
+}
+
+void Desk::take_foreseen(GroundNews& news) {
+  {
+    const std::scoped_lock lock(foreseen_->mutex);
+    const bool is_of_now = foreseen_->epoch == epoch_ && foreseen_->revision == desk_->revision();
+    if (const auto areas = std::exchange(foreseen_->areas, std::nullopt); areas && is_of_now)
+      news.foresight = foresight_.take(*areas, foreseen_->active, frame_->snapshot.drones.size());
+  }
+  for (runtime::AreaState& area : news.areas) area.foreseen_s = foresight_.foreseen_s(area.what);
 }
 
 void Desk::read_frame() {

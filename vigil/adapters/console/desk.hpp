@@ -5,6 +5,7 @@
 #include <deque>
 #include <functional>
 #include <memory>
+#include <mutex>
 #include <optional>
 #include <string>
 #include <variant>
@@ -14,6 +15,7 @@
 #include "vigil/adapters/console/server_messages.hpp"
 #include "vigil/adapters/console/trail_ring.hpp"
 #include "vigil/adapters/console/why_question.hpp"
+#include "vigil/runtime/deadline_foresight.hpp"
 #include "vigil/runtime/flight_history.hpp"
 #include "vigil/runtime/ground_picture.hpp"
 #include "vigil/runtime/live_mission.hpp"
@@ -60,6 +62,7 @@ struct TargetsNews {
 struct GroundNews {
   std::vector<runtime::AreaState> areas;
   std::vector<runtime::DeadlineChange> deadlines;
+  std::optional<runtime::EventWords> foresight;  ///< who will miss a deadline, where that is news
   SharedBytes coverage;
   SharedBytes age;
   std::uint64_t tick = 0;
@@ -157,6 +160,17 @@ class Desk {
   [[nodiscard]] std::vector<runtime::SavedFlight::Drone> ordered_drones() const;
   void submit_target();
   void refuse(std::uint64_t ticket, std::string_view code, std::string reason);
+  void look_for_deadlines();
+  void take_foreseen(GroundNews& news);
+
+  /// What a thread of the desk's own has seen ahead, for the desk to fetch.
+  struct Foreseen {
+    std::mutex mutex;
+    std::optional<std::vector<runtime::AreaOutlook>> areas;
+    std::uint64_t revision = 0;  ///< of the targets
+    std::uint32_t epoch = 0;
+    std::size_t active = 0;
+  };
 
   MakeFlight make_flight_;
   Tell tell_;
@@ -166,6 +180,8 @@ class Desk {
   std::string mission_text_;
   std::optional<runtime::MissionDesk> desk_;
   std::optional<runtime::GroundPicture> ground_;
+  runtime::DeadlineForesight foresight_;
+  std::shared_ptr<Foreseen> foreseen_ = std::make_shared<Foreseen>();
   std::optional<runtime::LiveFrame> frame_;
   std::size_t frame_version_ = 0;
   bool has_new_frame_ = false;                       ///< nobody has looked at it

@@ -30,23 +30,25 @@ std::optional<double> revisit_in(const JsonReader& reader) {
 }
 
 ClusterEntry cluster_in(const JsonReader& reader) {
-  reader.allow_only({"name", "points_m", "weight", "revisit_s"});
+  reader.allow_only({"name", "points_m", "weight", "revisit_s", "protect"});
   ClusterEntry entry;
   entry.name = reader.text("name", kMostNameBytes);
   entry.points_m = reader.points("points_m", kMostPoints);
   if (reader.has("weight")) entry.weight = reader.number("weight");
   if (reader.has("revisit_s")) entry.revisit_s = revisit_in(reader);
+  if (reader.has("protect")) entry.is_protected = reader.flag("protect");
   return entry;
 }
 
 AreaEntry area_in(const JsonReader& reader) {
-  reader.allow_only({"name", "outline_m", "weight", "soft_edge_m", "revisit_s"});
+  reader.allow_only({"name", "outline_m", "weight", "soft_edge_m", "revisit_s", "protect"});
   AreaEntry entry;
   entry.name = reader.text("name", kMostNameBytes);
   entry.outline_m = reader.points("outline_m", kMostPoints);
   if (reader.has("weight")) entry.weight = reader.number("weight");
   if (reader.has("soft_edge_m")) entry.soft_edge_m = reader.number("soft_edge_m");
   if (reader.has("revisit_s")) entry.revisit_s = revisit_in(reader);
+  if (reader.has("protect")) entry.is_protected = reader.flag("protect");
   return entry;
 }
 
@@ -111,6 +113,10 @@ TargetEdit edit_in(const JsonReader& reader) {
     reader.allow_only({"op", "kind", "name", "revisit_s"});
     return runtime::SetRevisit{target_name_in(reader), revisit_in(reader)};
   }
+  if (op == "set_protect") {
+    reader.allow_only({"op", "kind", "name", "protect"});
+    return runtime::SetProtect{target_name_in(reader), reader.flag("protect")};
+  }
   if (op == "set_soft_edge") {
     reader.allow_only({"op", "kind", "name", "soft_edge_m"});
     return runtime::SetSoftEdge{target_name_in(reader), reader.number("soft_edge_m")};
@@ -121,7 +127,7 @@ TargetEdit edit_in(const JsonReader& reader) {
   }
   reader.refuse("op",
                 "must be one of: add, replace, remove, rename, add_point, move_point, remove_point, set_weight, "
-                "set_revisit, set_soft_edge, set_uniform_floor");
+                "set_revisit, set_protect, set_soft_edge, set_uniform_floor");
 }
 
 nlohmann::ordered_json points_json(const std::vector<Vec2>& points) {
@@ -150,7 +156,8 @@ nlohmann::ordered_json to_json(const ClusterEntry& entry) {
   return {{"name", entry.name},
           {"points_m", points_json(entry.points_m)},
           {"weight", entry.weight},
-          {"revisit_s", or_null(entry.revisit_s)}};
+          {"revisit_s", or_null(entry.revisit_s)},
+          {"protect", entry.is_protected}};
 }
 
 nlohmann::ordered_json to_json(const AreaEntry& entry) {
@@ -158,7 +165,8 @@ nlohmann::ordered_json to_json(const AreaEntry& entry) {
           {"outline_m", points_json(entry.outline_m)},
           {"weight", entry.weight},
           {"soft_edge_m", entry.soft_edge_m},
-          {"revisit_s", or_null(entry.revisit_s)}};
+          {"revisit_s", or_null(entry.revisit_s)},
+          {"protect", entry.is_protected}};
 }
 
 nlohmann::ordered_json to_json(const NoFlyEntry& entry) {

@@ -172,6 +172,8 @@ void Hub::take(const GroundNews& news) {
          .what = change.is_overdue ? "overdue" : "seen_again",
          .words = std::move(words)});
   }
+  if (news.foresight)
+    log({.tick = news.tick, .time_s = news.time_s, .source = "swarm", .what = "deadlines", .words = *news.foresight});
 }
 
 void Hub::take(const DeskAnswer& news) {
@@ -301,8 +303,10 @@ Json Hub::status() const {
                         .waits_for_resume = waits_for_resume_,
                         .waiting = {},
                         .waiting_more = 0,
-                        .replay = replay_};
+                        .replay = replay_,
+                        .plan = {}};
   if (!flight_->is_recording()) list_waiting(context);
+  if (!flight_->mission().stations.empty()) context.plan = frame_->snapshot.drones;
   if (const runtime::QueuedRecorder* recorder = flight_->recorder())
     context.recording = RecordingState{setup_.recording_folder, recorder->kept_ticks(), recorder->lost_ticks()};
   return status_json(areas_, context);
@@ -332,7 +336,8 @@ Json Hub::state() const {
                       {"battery_time_left_s", time_left ? Json(time_left->s) : Json(nullptr)},
                       {"battery_time_left_least_s", time_left ? Json(time_left->least_s) : Json(nullptr)},
                       {"pad", drone.pad >= 0 ? Json(drone.pad) : Json(nullptr)},
-                      {"leaves_in_s", std::isfinite(drone.leaves_in_s) ? Json(drone.leaves_in_s) : Json(nullptr)}});
+                      {"leaves_in_s", finite_or_null(drone.leaves_in_s)},
+                      {"away_for_s", finite_or_null(drone.away_for_s)}});
   }
   Json state{{"run", setup_.run},
              {"epoch", flight_->epoch()},

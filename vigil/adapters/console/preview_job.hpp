@@ -3,6 +3,8 @@
 #include <atomic>
 #include <cstdint>
 #include <memory>
+#include <optional>
+#include <vector>
 
 #include "vigil/adapters/console/desk.hpp"
 #include "vigil/runtime/what_if.hpp"
@@ -21,5 +23,9 @@ struct PreviewJob {
 /// Does it: waits for the flight's state, at most a second, and runs it ahead. PreviewNews, or why there is none.
 /// Any thread but the flight's own.
 [[nodiscard]] DeskNews answer_of(const PreviewJob& job, const std::atomic<bool>& cancelled);
+
+/// How every cluster and area will fare as things are; none where it was cancelled or the flight is over. As above.
+[[nodiscard]] std::optional<std::vector<runtime::AreaOutlook>> areas_ahead(const PreviewJob& job,
+                                                                           const std::atomic<bool>& cancelled);
 
 }  // namespace vigil::console

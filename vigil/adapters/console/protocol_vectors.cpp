@@ -1,5 +1,6 @@
 #include "vigil/adapters/console/protocol_vectors.hpp"
 
+#include <array>
 #include <cmath>
 #include <limits>
 #include <vector>
@@ -258,7 +259,7 @@ const std::vector<std::pair<std::string, std::string>>& client_texts() {
       {"editing", R"({"type":"editing","id":10,"what":[{"kind":"area","name":"west"}]})"},
       {"load", R"({"type":"load_mission","id":11,"yaml":"format: 1"})"},
       {"every edit",
-       R"({"type":"edit","id":12,"based_on":7,"edits":[{"op":"add","kind":"cluster","entry":{"name":"n","points_m":[[11,21]]}},{"op":"replace","kind":"area","name":"west","entry":{"name":"west","outline_m":[[10.5,20.5],[11,20.5],[11,21]],"weight":2,"soft_edge_m":0.5,"revisit_s":null}},{"op":"remove","kind":"no_fly","name":"mast"},{"op":"rename","kind":"cluster","name":"n","to":"north"},{"op":"add_point","kind":"cluster","name":"north","point_m":[11,21]},{"op":"add_point","kind":"cluster","name":"north","point_m":[11,21],"index":0},{"op":"move_point","kind":"cluster","name":"north","index":0,"point_m":[12,21]},{"op":"remove_point","kind":"cluster","name":"north","index":1},{"op":"set_weight","kind":"cluster","name":"north","weight":3},{"op":"set_revisit","kind":"cluster","name":"north","revisit_s":60},{"op":"set_soft_edge","kind":"area","name":"west","soft_edge_m":0.25},{"op":"set_uniform_floor","uniform_floor":0.125}]})"},
+       R"({"type":"edit","id":12,"based_on":7,"edits":[{"op":"add","kind":"cluster","entry":{"name":"n","points_m":[[11,21]]}},{"op":"replace","kind":"area","name":"west","entry":{"name":"west","outline_m":[[10.5,20.5],[11,20.5],[11,21]],"weight":2,"soft_edge_m":0.5,"revisit_s":null}},{"op":"remove","kind":"no_fly","name":"mast"},{"op":"rename","kind":"cluster","name":"n","to":"north"},{"op":"add_point","kind":"cluster","name":"north","point_m":[11,21]},{"op":"add_point","kind":"cluster","name":"north","point_m":[11,21],"index":0},{"op":"move_point","kind":"cluster","name":"north","index":0,"point_m":[12,21]},{"op":"remove_point","kind":"cluster","name":"north","index":1},{"op":"set_weight","kind":"cluster","name":"north","weight":3},{"op":"set_revisit","kind":"cluster","name":"north","revisit_s":60},{"op":"set_protect","kind":"cluster","name":"north","protect":true},{"op":"set_soft_edge","kind":"area","name":"west","soft_edge_m":0.25},{"op":"set_uniform_floor","uniform_floor":0.125}]})"},
       {"preview",
        R"({"type":"preview_density","id":13,"based_on":7,"edits":[{"op":"set_weight","kind":"cluster","name":"east","weight":3}]})"},
       {"look ahead", R"({"type":"preview","id":14})"},
@@ -390,8 +391,13 @@ Json server_messages() {
   event.was = "active";
   event.words = {runtime::Severity::kWarning, "b lands", "1 of 2 drones cover", "take off again when it is ready"};
   const std::vector<runtime::AreaState> areas{
-      {{runtime::TargetKind::kCluster, "east"}, 3.25, 14.0, 30.0, false, 0.5, 0.25},
+      {{runtime::TargetKind::kCluster, "east"}, 3.25, 14.0, 30.0, false, 0.5, 0.25, 42.5},
       {{runtime::TargetKind::kArea, "west"}, 33.5, 33.5, {}, false, 0.25, 0.5}};
+  std::array<swarm::DroneSnapshot, 3> drones;
+  drones[0].pad = 1;
+  drones[0].away_for_s = 312.5;
+  drones[1].leaves_in_s = 900.0;
+  drones[1].away_for_s = 600.0;
   const StatusContext status{
       .epoch = 3,
       .recording = RecordingState{"out/x", 1200, 0},
@@ -402,7 +408,8 @@ Json server_messages() {
       .waits_for_resume = true,
       .waiting = {{"land a, b", "Ana"}},
       .waiting_more = 2,
-      .replay = {}};
+      .replay = {},
+      .plan = drones};
   Json list = Json::array();
   const auto add = [&list](const char* name, Json message) {
     list.push_back({{"name", name}, {"message", std::move(message)}});

@@ -1,5 +1,8 @@
 #include "vigil/adapters/console/server_messages.hpp"
 
+#include <algorithm>
+#include <cmath>
+
 #include "vigil/adapters/console/edit_json.hpp"
 #include "vigil/adapters/console/mission_json.hpp"
 #include "vigil/runtime/replay_loop.hpp"
@@ -26,7 +29,23 @@ Json area_json(const runtime::AreaState& area) {
           {"deadline_s", or_null(area.deadline_s)},
           {"is_overdue", area.is_overdue},
           {"asked", area.asked},
-          {"achieved", area.achieved}};
+          {"achieved", area.achieved},
+          {"foreseen_s", or_null(area.foreseen_s)}};
+}
+
+/// Who is away, or is to go, and until when: a line each.
+Json plan_json(std::span<const swarm::DroneSnapshot> drones) {
+  Json plan = Json::array();
+  for (std::size_t i = 0; i < std::min(drones.size(), kMostPlanned); ++i) {
+    const swarm::DroneSnapshot& drone = drones[i];
+    if (!std::isfinite(drone.leaves_in_s) && drone.pad < 0) continue;
+    const double leaves_in_s = drone.pad >= 0 ? 0.0 : drone.leaves_in_s;
+    plan.push_back({{"drone", i},
+                    {"pad", drone.pad >= 0 ? Json(drone.pad) : Json(nullptr)},
+                    {"leaves_in_s", leaves_in_s},
+                    {"back_in_s", finite_or_null(leaves_in_s + drone.away_for_s)}});
+  }
+  return plan;
 }
 
 Json mission_message(const runtime::Mission& mission, std::uint32_t epoch, std::string_view fleet,
@@ -56,6 +75,8 @@ Json lateness_json(const runtime::LatenessFigures& lateness) {
 }
 
 }  // namespace
+
+Json finite_or_null(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
 
 Json hello_json(const Operator& client, std::string_view program, std::string_view run, bool wants_login,
                 double steady_ms) {
@@ -141,7 +162,8 @@ Json status_json(const std::vector<runtime::AreaState>& areas, const StatusConte
           {"waits_for_resume", context.waits_for_resume},
           {"waiting", std::move(waiting)},
           {"waiting_more", context.waiting_more},
-          {"replay", context.replay ? replay_json(*context.replay) : Json(nullptr)}};
+          {"replay", context.replay ? replay_json(*context.replay) : Json(nullptr)},
+          {"plan", plan_json(context.plan)}};
 }
 
 Json presence_json(const std::vector<Operator>& operators) {

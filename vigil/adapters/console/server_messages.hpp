@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -15,6 +16,8 @@
 #include "vigil/runtime/mission_desk.hpp"
 
 /// The JSON that the server says: protocol/README.md, member for member.
+#include "vigil/swarm/snapshot.hpp"
+
 namespace vigil::console {
 
 inline constexpr double kMostSpeed = 20.0;
@@ -88,7 +91,12 @@ struct StatusContext {
   std::vector<WaitingOrder> waiting;  ///< the oldest first, at most kMostWaitingShown
   std::size_t waiting_more = 0;       ///< how many wait besides
   std::optional<ReplayState> replay;
+  /// Who is to be charged when; empty without stations. At most kMostPlanned are told of.
+  std::span<const swarm::DroneSnapshot> plan = {};
 };
+
+/// The plan of so many drones is told, the first ones'.
+inline constexpr std::size_t kMostPlanned = 200;
 
 /// A command's answer, before its id.
 struct Answer {
@@ -100,6 +108,9 @@ struct Answer {
 };
 
 using Json = nlohmann::ordered_json;
+
+/// JSON knows no infinity.
+[[nodiscard]] Json finite_or_null(double value);
 
 [[nodiscard]] Json hello_json(const Operator& client, std::string_view program, std::string_view run, bool wants_login,
                               double steady_ms);

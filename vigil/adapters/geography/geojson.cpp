@@ -41,6 +41,7 @@ template <class Entry>
 Json wanted(const char* kind, const Entry& entry) {
   Json properties{{"kind", kind}, {"name", entry.name}, {"weight", entry.weight}};
   if (entry.revisit_s) properties["revisit_s"] = *entry.revisit_s;
+  if (entry.is_protected) properties["protect"] = true;
   return properties;
 }
 

@@ -29,6 +29,8 @@ CsvFile with_header(const std::filesystem::path& path, std::string_view header) 
   return file;
 }
 
+std::string_view truth_word(bool truth) { return truth ? "true" : "false"; }
+
 }  // namespace
 
 CsvRecorder::CsvRecorder(const std::filesystem::path& directory, std::string mission_text, std::uint64_t keep_every)
@@ -185,11 +187,13 @@ void CsvRecorder::write_targets(double time_s, const runtime::MissionTargets& ta
     value ? targets_.cell(*value) : targets_.empty_cell();
   };
   const auto begin_row = [&](std::string_view kind, const std::string& name, std::optional<double> weight,
-                             std::optional<double> revisit_s, std::optional<double> soft_edge_m) {
+                             std::optional<double> revisit_s, std::optional<double> soft_edge_m,
+                             std::string_view protect) {
     targets_.cell(time_s);
     targets_.cell(kind);
     targets_.cell(std::string_view(name));
     for (const std::optional<double> value : {weight, revisit_s, soft_edge_m}) cell_or_none(value);
+    protect.empty() ? targets_.empty_cell() : targets_.cell(protect);
   };
   const auto end_row = [&](const Vec2& point) {
     cells(targets_, point);
@@ -198,24 +202,24 @@ void CsvRecorder::write_targets(double time_s, const runtime::MissionTargets& ta
   const auto& [wanted, no_fly] = targets;
   for (const runtime::ClusterEntry& cluster : wanted.clusters) {
     for (const Vec2& point : cluster.points_m) {
-      begin_row("cluster", cluster.name, cluster.weight, cluster.revisit_s, {});
+      begin_row("cluster", cluster.name, cluster.weight, cluster.revisit_s, {}, truth_word(cluster.is_protected));
       end_row(point);
     }
   }
   for (const runtime::AreaEntry& area : wanted.areas) {
     for (const Vec2& corner : area.outline_m) {
-      begin_row("area", area.name, area.weight, area.revisit_s, area.soft_edge_m);
+      begin_row("area", area.name, area.weight, area.revisit_s, area.soft_edge_m, truth_word(area.is_protected));
       end_row(corner);
     }
   }
   for (const runtime::NoFlyEntry& polygon : no_fly) {
     for (const Vec2& corner : polygon.outline_m) {
-      begin_row("no_fly", polygon.name, {}, {}, {});
+      begin_row("no_fly", polygon.name, {}, {}, {}, "");
       end_row(corner);
     }
   }
   // The floor ends every list, so that one without any target is a list too.
-  begin_row("floor", "", wanted.uniform_floor, {}, {});
+  begin_row("floor", "", wanted.uniform_floor, {}, {}, "");
   for (int i = 0; i < 2; ++i) targets_.empty_cell();
   targets_.end_row();
   targets_.flush();

@@ -77,7 +77,7 @@ TEST(CsvRecorder, Text_with_commas_quotes_and_line_ends_is_quoted) {
   export_flight(folder.path(), 2, 1);
   EXPECT_NE(contents(folder.file("events.csv")).find("0,mission,begin,,\"said \"\"go\"\",\nand went\"\n"),
             std::string::npos);
-  EXPECT_NE(contents(folder.file("targets.csv")).find("0,cluster,\"east, \"\"far\"\"\",2,,,0.7,0.25\n"),
+  EXPECT_NE(contents(folder.file("targets.csv")).find("0,cluster,\"east, \"\"far\"\"\",2,,,false,0.7,0.25\n"),
             std::string::npos);
 }
 
@@ -86,18 +86,18 @@ TEST(CsvRecorder, A_list_of_targets_tells_deadlines_soft_edges_no_fly_polygons_a
   CsvRecorder recorder(folder.path() / "out", "");
   recorder.begin(mission_of(1), {});
   runtime::MissionTargets targets;
-  targets.targets.clusters.push_back({"camp", {{0.5, 0.25}}, 2.0, 60.0});
+  targets.targets.clusters.push_back({"camp", {{0.5, 0.25}}, 2.0, 60.0, true});
   targets.targets.areas.push_back({"pond", {{0.0, 0.0}, {1.0, 0.0}, {0.0, 1.0}}, 3.0, 0.125, {}});
   targets.targets.uniform_floor = 0.5;
   targets.no_fly.push_back({"mast", {{0.0, 0.0}, {2.0, 0.0}, {0.0, 2.0}}});
   recorder.targets(4.0, targets);
   recorder.finish();
   EXPECT_EQ(contents(folder.file("targets.csv")),
-            "t_s,kind,name,weight,revisit_s,soft_edge_m,x_m,y_m\n"
-            "4,cluster,camp,2,60,,0.5,0.25\n"
-            "4,area,pond,3,,0.125,0,0\n4,area,pond,3,,0.125,1,0\n4,area,pond,3,,0.125,0,1\n"
-            "4,no_fly,mast,,,,0,0\n4,no_fly,mast,,,,2,0\n4,no_fly,mast,,,,0,2\n"
-            "4,floor,,0.5,,,,\n");
+            "t_s,kind,name,weight,revisit_s,soft_edge_m,protect,x_m,y_m\n"
+            "4,cluster,camp,2,60,,true,0.5,0.25\n"
+            "4,area,pond,3,,0.125,false,0,0\n4,area,pond,3,,0.125,false,1,0\n4,area,pond,3,,0.125,false,0,1\n"
+            "4,no_fly,mast,,,,,0,0\n4,no_fly,mast,,,,,2,0\n4,no_fly,mast,,,,,0,2\n"
+            "4,floor,,0.5,,,,,\n");
 }
 
 TEST(CsvRecorder, Keeps_every_third_tick_and_the_first_and_the_last) {

@@ -19,28 +19,34 @@ constexpr std::int32_t kAllDrones = -1;
 
 std::size_t bytes_of(const swarm::Command& command) {
   if (command.target == nullptr) return kCommandBytes;
-  const auto phi = static_cast<std::size_t>(command.target->phi_k.size());
+  const auto phi = static_cast<std::size_t>(command.target->phi_k.size() + command.target->protected_k.size());
   return kCommandBytes + kEntryBytes + sizeof(double) * (phi + 4 * command.target->no_fly.size());
 }
 
 void put_target(CdrWriter& writer, const swarm::CoverageTarget& target) {
   writer.put(target.has_targets);
   writer.put(static_cast<std::uint32_t>(target.phi_k.rows()));
-  writer.sequence(std::span<const double>(target.phi_k.data(), static_cast<std::size_t>(target.phi_k.size())));
+  for (const ergodic::Coefficients* of : {&target.phi_k, &target.protected_k})
+    writer.sequence(std::span<const double>(of->data(), static_cast<std::size_t>(of->size())));
   writer.count(4 * target.no_fly.size());
   for (const field::Segment& edge : target.no_fly)
     for (const double value : {edge.a.x(), edge.a.y(), edge.b.x(), edge.b.y()}) writer.put(value);
+}
+
+ergodic::Coefficients coefficients_in(CdrReader& reader, std::size_t rows) {
+  const std::vector<double> all = reader.sequence<double>();
+  if (all.empty()) return {};
+  if (rows == 0 || all.size() % rows != 0) throw RecordingError("coefficients of no shape");
+  return Eigen::Map<const ergodic::Coefficients>(all.data(), static_cast<Eigen::Index>(rows),
+                                                 static_cast<Eigen::Index>(all.size() / rows));
 }
 
 std::shared_ptr<const swarm::CoverageTarget> target_in(CdrReader& reader) {
   auto target = std::make_shared<swarm::CoverageTarget>();
   target->has_targets = reader.flag();
   const std::size_t rows = reader.u32();
-  const std::vector<double> phi = reader.sequence<double>();
-  if (rows == 0 ? !phi.empty() : phi.size() % rows != 0) throw RecordingError("coefficients of no shape");
-  if (rows > 0)
-    target->phi_k = Eigen::Map<const ergodic::Coefficients>(phi.data(), static_cast<Eigen::Index>(rows),
-                                                            static_cast<Eigen::Index>(phi.size() / rows));
+  target->phi_k = coefficients_in(reader, rows);
+  target->protected_k = coefficients_in(reader, rows);
   const std::vector<double> edges = reader.sequence<double>();
   if (edges.size() % 4 != 0) throw RecordingError("no-fly edges with an end missing");
   for (std::size_t n = 0; n < edges.size(); n += 4)
@@ -98,6 +104,7 @@ void put_entry(CdrWriter& writer, const runtime::ClusterEntry& cluster) {
   writer.put(cluster.weight);
   put_deadline(writer, cluster.revisit_s);
   writer.put(0.0);
+  writer.put(cluster.is_protected);
   put_points(writer, cluster.points_m);
 }
 
@@ -106,6 +113,7 @@ void put_entry(CdrWriter& writer, const runtime::AreaEntry& area) {
   writer.put(area.weight);
   put_deadline(writer, area.revisit_s);
   writer.put(area.soft_edge_m);
+  writer.put(area.is_protected);
   put_points(writer, area.outline_m);
 }
 
@@ -119,6 +127,7 @@ void take_entry(CdrReader& reader, runtime::ClusterEntry& cluster) {
   cluster.weight = reader.number();
   cluster.revisit_s = deadline_in(reader);
   (void)reader.number();
+  cluster.is_protected = reader.flag();
   cluster.points_m = points_in(reader);
 }
 
@@ -127,6 +136,7 @@ void take_entry(CdrReader& reader, runtime::AreaEntry& area) {
   area.weight = reader.number();
   area.revisit_s = deadline_in(reader);
   area.soft_edge_m = reader.number();
+  area.is_protected = reader.flag();
   area.outline_m = points_in(reader);
 }
 

@@ -13,7 +13,7 @@ inline constexpr std::string_view kTickHeader =
 inline constexpr std::string_view kDroneHeader =
     "t_s,drone,mode,activity,x_m,y_m,height_m,vx_m_s,vy_m_s,age_s,nominal_x_m_s,nominal_y_m_s,action,command_x_m_s,"
     "command_y_m_s,held_by,held_distance_m,fallback,true_x_m,true_y_m,true_height_m";
-inline constexpr std::string_view kTargetHeader = "t_s,kind,name,weight,revisit_s,soft_edge_m,x_m,y_m";
+inline constexpr std::string_view kTargetHeader = "t_s,kind,name,weight,revisit_s,soft_edge_m,protect,x_m,y_m";
 inline constexpr std::string_view kEventHeader = "t_s,source,what,drone,detail";
 
 inline constexpr std::string_view kFolder = "recording";

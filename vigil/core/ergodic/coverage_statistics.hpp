@@ -55,6 +55,10 @@ class CoverageStatistics {
                Coefficients& d_k) const noexcept;
   /// The share of the past that is left after dt_s.
   [[nodiscard]] double kept(double dt_s) const noexcept;
+  /// What the newest sample, of dt_s and so many drones, makes up of all that is remembered, (0, 1]; 0: there is none.
+  [[nodiscard]] double share_of_newest(double dt_s, std::size_t drones) const noexcept {
+    return time_s_ > 0.0 && drones > 0 ? gain_s(dt_s, drones) * static_cast<double>(drones) / time_s_ : 0.0;
+  }
   /// How many seconds a sample of dt_s adds for each of its drones.
   [[nodiscard]] double gain_s(double dt_s, std::size_t drones) const noexcept;
 

@@ -145,6 +145,28 @@ bool scale_to(double mass, double original_mass, const DensityGrid& grid, Eigen:
 
 double total(std::span<const double> weights) { return std::accumulate(weights.begin(), weights.end(), 0.0); }
 
+// Clusters and areas, also where nobody may fly; their mass there and outside the field is in `mass`, too.
+DensityGrid targets_anywhere(const Field& field, const Importance& importance, GridShape shape, double& mass) {
+  const Mixture mixture = mixture_of(importance);
+  const bool smooth = importance.areas.empty() && importance.no_fly.empty() &&
+                      resolves(field, shape, smallest_sigma(mixture.gaussians));
+  DensityGrid grid = empty_grid(field, shape, smooth ? EndRule::kSmooth : EndRule::kKinked);
+  mass = total(mixture.weights);
+  add_mixture(mixture.gaussians, mixture.weights, grid);
+  for (const Area& area : importance.areas) {
+    if (area.weight <= 0.0) continue;
+    mass += area.weight;
+    add_area(area, grid);
+  }
+  return grid;
+}
+
+Importance only_protected(Importance importance) {
+  for (Cluster& cluster : importance.clusters) cluster.weight = cluster.is_protected ? cluster.weight : 0.0;
+  for (Area& area : importance.areas) area.weight = area.is_protected ? area.weight : 0.0;
+  return importance;
+}
+
 }  // namespace
 
 Vec2 DensityGrid::midpoint(Eigen::Index ix, Eigen::Index iy) const {
@@ -163,18 +185,8 @@ GridShape grid_shape(const Field& field, const Importance& importance, int max_i
 }
 
 std::optional<DensityGrid> rasterise(const Field& field, const Importance& importance, GridShape shape) {
-  const Mixture mixture = mixture_of(importance);
-  const bool smooth = importance.areas.empty() && importance.no_fly.empty() &&
-                      resolves(field, shape, smallest_sigma(mixture.gaussians));
-  DensityGrid grid = empty_grid(field, shape, smooth ? EndRule::kSmooth : EndRule::kKinked);
-  double target_mass = total(mixture.weights);
-  add_mixture(mixture.gaussians, mixture.weights, grid);
-  for (const Area& area : importance.areas) {
-    if (area.weight <= 0.0) continue;
-    target_mass += area.weight;
-    add_area(area, grid);
-  }
-
+  double target_mass = 0.0;
+  DensityGrid grid = targets_anywhere(field, importance, shape, target_mass);
   Eigen::ArrayXXd floor = allowed_share(importance.no_fly, grid);
   grid.values *= floor;
   const bool has_targets = scale_to(1.0 - importance.uniform_floor, target_mass, grid, grid.values);
@@ -182,6 +194,21 @@ std::optional<DensityGrid> rasterise(const Field& field, const Importance& impor
   if (!has_targets && !has_floor) return std::nullopt;
   grid.values += floor;
   scale_to(1.0, 1.0, grid, grid.values);  // one part alone gets all attention; of two, only rounding is mended
+  return grid;
+}
+
+std::optional<DensityGrid> rasterise_protected(const Field& field, const Importance& importance, GridShape shape) {
+  const Importance kept = only_protected(importance);
+  if (!kept.has_targets() || importance.uniform_floor >= 1.0) return std::nullopt;
+  double mass = 0.0;
+  double kept_mass = 0.0;
+  DensityGrid all = targets_anywhere(field, importance, shape, mass);
+  DensityGrid grid = targets_anywhere(field, kept, shape, kept_mass);
+  const Eigen::ArrayXXd allowed = allowed_share(importance.no_fly, all);
+  all.values *= allowed;
+  grid.values *= allowed;
+  const double share = (1.0 - importance.uniform_floor) * grid.integral() / all.integral();
+  if (!std::isfinite(share) || !scale_to(share, kept_mass, grid, grid.values)) return std::nullopt;
   return grid;
 }
 

@@ -38,8 +38,13 @@ struct DensityGrid {
 /// narrower than half a cell is hard.
 [[nodiscard]] std::optional<DensityGrid> rasterise(const Field& field, const Importance& importance, GridShape shape);
 
-/// The same for a given mixture of Gaussians (weights need not sum to 1), without areas, no-fly polygons or floor.
-/// Precondition: as many weights as Gaussians, none negative; covariances positive definite.
+/// The part of rasterise() that is of protected clusters and areas; its integral is their share of all attention. Empty
+/// where nothing is protected, or nothing of it is left.
+[[nodiscard]] std::optional<DensityGrid> rasterise_protected(const Field& field, const Importance& importance,
+                                                             GridShape shape);
+
+/// The same as rasterise() for a given mixture of Gaussians (weights need not sum to 1), without areas, no-fly polygons
+/// or floor. Precondition: as many weights as Gaussians, none negative; covariances positive definite.
 [[nodiscard]] std::optional<DensityGrid> rasterise(const Field& field, std::span<const Gaussian> mixture,
                                                    std::span<const double> weights, GridShape shape);
 

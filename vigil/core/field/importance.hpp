@@ -20,7 +20,8 @@ struct Gaussian {
 struct Cluster {
   std::string name;
   std::vector<Vec2> targets;
-  double weight = 1.0;  ///< multiplies the number of targets in (2); zero or more
+  double weight = 1.0;        ///< multiplies the number of targets in (2); zero or more
+  bool is_protected = false;  ///< see rasterise_protected()
 };
 
 /// A drawn area: density 1 inside, falling to 0 over `soft_edge_m` outside its outline (a half Gaussian of that sigma).
@@ -30,6 +31,7 @@ struct Area {
   Polygon outline;
   double weight = 5.0;
   double soft_edge_m = 0.0;
+  bool is_protected = false;  ///< see rasterise_protected()
 };
 
 /// All that says where the swarm should look.

@@ -18,13 +18,20 @@ const name = text(256);
 const sentence = text(4000);
 const role = oneOf('viewer', 'operator', 'safety_pilot');
 
-const clusterShape = record({ name, points_m: list(point, 10_000), weight: finite, revisit_s: maybe(finite) });
+const clusterShape = record({
+  name,
+  points_m: list(point, 10_000),
+  weight: finite,
+  revisit_s: maybe(finite),
+  protect: flag,
+});
 const areaShape = record({
   name,
   outline_m: list(point, 1000),
   weight: finite,
   soft_edge_m: finite,
   revisit_s: maybe(finite),
+  protect: flag,
 });
 const noFlyShape = record({ name, outline_m: list(point, 1000) });
 
@@ -111,9 +118,11 @@ const statusShape = record({
       is_overdue: flag,
       asked: orNull(finite),
       achieved: orNull(finite),
+      foreseen_s: maybe(finite),
     }),
     2000,
   ),
+  plan: maybe(list(record({ drone: finite, pad: maybe(finite), leaves_in_s: finite, back_in_s: maybe(finite) }), 200)),
   recording: maybe(record({ folder: sentence, ticks: finite, lost_ticks: finite })),
   lost_events: finite,
   clients: finite,
@@ -246,6 +255,7 @@ export type TargetsMessage = MessageOf<'targets'>;
 export type Recording = NonNullable<Mission['recording']>;
 export type Status = MessageOf<'status'>;
 export type AreaStatus = Status['areas'][number];
+export type Turn = NonNullable<Shaped<typeof statusShape>['plan']>[number];
 export type SwarmEvent = Shaped<typeof eventShape>;
 export type Operator = Shaped<typeof presenceShape>['operators'][number];
 export type Edited = Shaped<typeof editedShape>;

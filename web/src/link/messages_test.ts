@@ -12,7 +12,7 @@ const targets = {
   can_redo: false,
   undo_what: 'east: weight 2',
   redo_what: '',
-  clusters: [{ name: 'east', points_m: [[0.5, 1]], weight: 2, revisit_s: null }],
+  clusters: [{ name: 'east', points_m: [[0.5, 1]], weight: 2, revisit_s: null, protect: false }],
   areas: [],
   no_fly: [],
   uniform_floor: 0,

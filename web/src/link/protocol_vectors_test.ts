@@ -89,7 +89,7 @@ describe('protocol vectors', () => {
       (v) => v.name === 'every edit',
     )!;
     const { edits } = JSON.parse(taken.text) as { edits: Edit[] };
-    const operations = ['add', 'replace', 'remove', 'rename', 'add_point', 'move_point', 'remove_point', 'set_weight', 'set_revisit', 'set_soft_edge', 'set_uniform_floor']; // prettier-ignore
+    const operations = ['add', 'replace', 'remove', 'rename', 'add_point', 'move_point', 'remove_point', 'set_weight', 'set_revisit', 'set_protect', 'set_soft_edge', 'set_uniform_floor']; // prettier-ignore
     expect(new Set(edits.map((edit) => edit.op))).toEqual(new Set(operations));
     for (const edit of edits) expect(apply(targetsFor(edit), edit), JSON.stringify(edit)).not.toBe(null);
   });
@@ -100,8 +100,8 @@ function targetsFor(edit: Edit): Targets {
   const name = 'name' in edit ? edit.name : 'another';
   const points = Array.from({ length: 8 }, (_, i) => [i, i * i] as const);
   return {
-    clusters: [{ name, points_m: points, weight: 1, revisit_s: null }],
-    areas: [{ name, outline_m: points, weight: 1, soft_edge_m: 0, revisit_s: null }],
+    clusters: [{ name, points_m: points, weight: 1, revisit_s: null, protect: false }],
+    areas: [{ name, outline_m: points, weight: 1, soft_edge_m: 0, revisit_s: null, protect: false }],
     no_fly: [{ name, outline_m: points }],
     uniform_floor: 0,
   };

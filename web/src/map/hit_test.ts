@@ -4,8 +4,8 @@ import { hitAt, type HitScene } from './hit';
 
 const targets: Targets = {
   ...kNoTargets,
-  clusters: [{ name: 'east', points_m: [[1, 0], [1, 1]], weight: 1, revisit_s: null }], // prettier-ignore
-  areas: [{ name: 'ridge', outline_m: [[-3, -1], [-1, -1], [-2, 1]], weight: 1, soft_edge_m: 0, revisit_s: null }], // prettier-ignore
+  clusters: [{ name: 'east', points_m: [[1, 0], [1, 1]], weight: 1, revisit_s: null, protect: false }], // prettier-ignore
+  areas: [{ name: 'ridge', outline_m: [[-3, -1], [-1, -1], [-2, 1]], weight: 1, soft_edge_m: 0, revisit_s: null, protect: false }], // prettier-ignore
 };
 // 100 CSS pixels a metre, the world's origin in the middle of 800 x 600.
 const scene: HitScene = {

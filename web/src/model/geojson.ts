@@ -1,4 +1,4 @@
-import { list, maybe, oneOf, record, ShapeError, text, finite, type Shape } from '../link/shape';
+import { flag, list, maybe, oneOf, record, ShapeError, text, finite, type Shape } from '../link/shape';
 import { crossesItself, type Point } from './geometry';
 import { apply, find, freeName, type Edit, type Entry, type Kind, type Targets } from './targets';
 
@@ -50,6 +50,7 @@ const propertiesShape = record({
   weight: maybe(finite),
   soft_edge_m: maybe(finite),
   revisit_s: maybe(finite),
+  protect: maybe(flag),
 });
 
 const anyObject: Shape<Record<string, unknown>> = (value, place) => {
@@ -66,7 +67,14 @@ const collectionShape = record({
 });
 
 type Properties = Exclude<ReturnType<typeof featureShape>['properties'], null>;
-const kNoProperties: Properties = { kind: null, name: null, weight: null, soft_edge_m: null, revisit_s: null };
+const kNoProperties: Properties = {
+  kind: null,
+  name: null,
+  weight: null,
+  soft_edge_m: null,
+  revisit_s: null,
+  protect: null,
+};
 
 /** Any other GeoJSON is in degrees (RFC 7946, 4), and a valley in degrees is a millimetre wide in metres. */
 const isInMetres = ({ vigil, crs }: ReturnType<typeof collectionShape>): boolean =>
@@ -142,14 +150,21 @@ function readFeature(geometry: Record<string, unknown>, properties: Properties, 
   }
   const points_m = type === 'Point' ? [position(coordinates, at)] : list(position, kMostPoints)(coordinates, at);
   if (points_m.length === 0) throw new ShapeError(`${at}: at least one point expected`);
-  const entry = { name, points_m, weight: properties.weight ?? 1, revisit_s: properties.revisit_s };
+  const entry = {
+    name,
+    points_m,
+    weight: properties.weight ?? 1,
+    revisit_s: properties.revisit_s,
+    protect: properties.protect ?? false,
+  };
   return [{ kind: 'cluster', entry, place }];
 }
 
 function outlined(outline_m: Point[], name: string, properties: Properties, place: string): Read {
   if (properties.kind === 'no_fly') return { kind: 'no_fly', entry: { name, outline_m }, place };
-  const { weight, soft_edge_m, revisit_s } = properties;
-  const entry = { name, outline_m, weight: weight ?? 5, soft_edge_m: soft_edge_m ?? 0, revisit_s };
+  const { weight, soft_edge_m, revisit_s, protect } = properties;
+  const rest = { weight: weight ?? 5, soft_edge_m: soft_edge_m ?? 0, revisit_s, protect: protect ?? false };
+  const entry = { name, outline_m, ...rest };
   return { kind: 'area', entry, place };
 }
 

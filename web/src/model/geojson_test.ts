@@ -3,8 +3,8 @@ import { readAreas, writeAreas } from './geojson';
 import { apply, kNoTargets, type Edit, type Targets } from './targets';
 
 const targets: Targets = {
-  clusters: [{ name: 'east', points_m: [[1, 2], [3, 4]], weight: 2, revisit_s: 30 }], // prettier-ignore
-  areas: [{ name: 'ridge', outline_m: [[0, 0], [1, 0], [0, 1]], weight: 5, soft_edge_m: 0.5, revisit_s: null }], // prettier-ignore
+  clusters: [{ name: 'east', points_m: [[1, 2], [3, 4]], weight: 2, revisit_s: 30, protect: false }], // prettier-ignore
+  areas: [{ name: 'ridge', outline_m: [[0, 0], [1, 0], [0, 1]], weight: 5, soft_edge_m: 0.5, revisit_s: null, protect: false }], // prettier-ignore
   no_fly: [{ name: 'road', outline_m: [[5, 5], [6, 5], [5, 6]] }], // prettier-ignore
   uniform_floor: 0,
 };

@@ -15,7 +15,7 @@ import { apply, freeName, kNoTargets, type Edit, type Targets } from './targets'
 
 const east: Targets = {
   ...kNoTargets,
-  clusters: [{ name: 'east', points_m: [[1, 1], [2, 1]], weight: 1, revisit_s: null }], // prettier-ignore
+  clusters: [{ name: 'east', points_m: [[1, 1], [2, 1]], weight: 1, revisit_s: null, protect: false }], // prettier-ignore
 };
 const weight = (value: number): Edit => ({ op: 'set_weight', kind: 'cluster', name: 'east', weight: value });
 const step = (...edits: Edit[]) => ({ what: 'a step', edits });
@@ -83,7 +83,7 @@ describe('edits', () => {
 
   it('A point for a cluster that is not there makes the cluster; its last point takes it away', () => {
     const made = apply(kNoTargets, { op: 'add_point', kind: 'cluster', name: 'new', point_m: [1, 2] });
-    expect(made?.clusters).toEqual([{ name: 'new', points_m: [[1, 2]], weight: 1, revisit_s: null }]);
+    expect(made?.clusters).toEqual([{ name: 'new', points_m: [[1, 2]], weight: 1, revisit_s: null, protect: false }]);
     expect(apply(made!, { op: 'remove_point', kind: 'cluster', name: 'new', index: 0 })).toEqual(kNoTargets);
   });
 

@@ -7,6 +7,8 @@ export interface Cluster {
   readonly points_m: readonly Point[];
   readonly weight: number;
   readonly revisit_s: number | null;
+  /** It keeps its drones where there are fewer. */
+  readonly protect: boolean;
 }
 
 export interface Area {
@@ -15,6 +17,8 @@ export interface Area {
   readonly weight: number;
   readonly soft_edge_m: number;
   readonly revisit_s: number | null;
+  /** It keeps its drones where there are fewer. */
+  readonly protect: boolean;
 }
 
 export interface NoFly {
@@ -62,6 +66,7 @@ export type Edit =
   | { readonly op: 'remove_point'; readonly kind: Kind; readonly name: string; readonly index: number }
   | { readonly op: 'set_weight'; readonly kind: Kind; readonly name: string; readonly weight: number }
   | { readonly op: 'set_revisit'; readonly kind: Kind; readonly name: string; readonly revisit_s: number | null }
+  | { readonly op: 'set_protect'; readonly kind: Kind; readonly name: string; readonly protect: boolean }
   | { readonly op: 'set_soft_edge'; readonly kind: Kind; readonly name: string; readonly soft_edge_m: number }
   | { readonly op: 'set_uniform_floor'; readonly uniform_floor: number };
 
@@ -128,7 +133,7 @@ const put = (targets: Targets, kind: Kind, entries: readonly Entry[]): Targets =
 const withNewCluster = (targets: Targets, edit: { name: string; point_m: Point }): Targets =>
   put(targets, 'cluster', [
     ...targets.clusters,
-    { name: edit.name, points_m: [edit.point_m], weight: 1, revisit_s: null },
+    { name: edit.name, points_m: [edit.point_m], weight: 1, revisit_s: null, protect: false },
   ]);
 
 function changedEntry(entry: Entry, edit: EntryEdit): Entry | 'gone' | null {
@@ -143,6 +148,8 @@ function changedEntry(entry: Entry, edit: EntryEdit): Entry | 'gone' | null {
       return 'weight' in entry ? { ...entry, weight: edit.weight } : null;
     case 'set_revisit':
       return 'weight' in entry ? { ...entry, revisit_s: edit.revisit_s } : null;
+    case 'set_protect':
+      return 'weight' in entry ? { ...entry, protect: edit.protect } : null;
     case 'set_soft_edge':
       return 'soft_edge_m' in entry ? { ...entry, soft_edge_m: edit.soft_edge_m } : null;
     case 'add_point':

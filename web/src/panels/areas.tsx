@@ -9,6 +9,9 @@ import { Icon, type IconName } from './icons';
 const kKindIcons: Record<Kind, IconName> = { cluster: 'cluster', area: 'area', no_fly: 'noFly' };
 const kKindWords: Record<Kind, string> = { cluster: 'cluster', area: 'area', no_fly: 'no-fly polygon' };
 
+/** An outlook errs by about a fifth. */
+const kWorthTelling = 1.2;
+
 /** Everything that is watched or forbidden, with how well it is served. */
 export function Areas() {
   const { session, editor } = useApp();
@@ -59,6 +62,13 @@ function AreaRow({ which, entry }: { which: EntryName; entry: Entry }) {
       </span>
       <span class="entry-name">
         {entry.name}
+        {'protect' in entry && entry.protect && (
+          <span title="Protected: keeps its drones where there are fewer">
+            {' '}
+            <Icon name="shield" small />
+            <span class="unseen">protected</span>
+          </span>
+        )}
         {isGhost && <span class="ok"> staged</span>}
         {others.map((o) => (
           <span key={o.client} class="ok">
@@ -82,6 +92,9 @@ function Served({ status }: { status: AreaStatus | undefined }) {
   if (!status) return <span class="entry-share">waiting for figures</span>;
   const { asked, achieved, age_s, deadline_s } = status;
   const left = deadline_s === null || age_s === null ? null : deadline_s - age_s;
+  const foreseen = status.foreseen_s;
+  const lateBy =
+    deadline_s !== null && foreseen !== null && foreseen > kWorthTelling * deadline_s ? foreseen - deadline_s : 0;
   return (
     <>
       <span class="entry-share" title="Share of attention: achieved (bar) of asked (mark)">
@@ -99,6 +112,11 @@ function Served({ status }: { status: AreaStatus | undefined }) {
       >
         {left === null ? `${duration(age_s)} ago` : left >= 0 ? `${duration(left)} left` : `late ${duration(-left)}`}
       </span>
+      {lateBy > 0 && (
+        <span class="entry-foreseen warning" title="With the drones that cover now, looked ahead">
+          will be late by {duration(lateBy)}
+        </span>
+      )}
     </>
   );
 }

@@ -1,5 +1,6 @@
 import { Areas } from './areas';
 import { useApp } from './app_context';
+import { ChargingPlan } from './charging_plan';
 import { EventLog } from './event_log';
 import { FleetTable } from './fleet_table';
 import { ForesightPanel } from './foresight_panel';
@@ -27,6 +28,7 @@ export function ConsolePage() {
         <MapPanel />
         <aside class="right" aria-label="Fleet and drone">
           <FleetTable />
+          <ChargingPlan />
           <ForesightPanel />
           <Inspector />
           <Orders />

@@ -254,7 +254,7 @@ function Empty() {
       const points_m = around.map(([dx, dy]): Point =>
         field.toWorld([(cx + dx) * field.size[0], (cy + dy) * field.size[1]]),
       );
-      return { op: 'add', kind: 'cluster', entry: { name, points_m, weight: 1, revisit_s: null } };
+      return { op: 'add', kind: 'cluster', entry: { name, points_m, weight: 1, revisit_s: null, protect: false } };
     });
   }
 }

@@ -44,6 +44,23 @@ export function EntryEditor({ which, entry }: { which: EntryName; entry: Entry }
             />
           </>
         )}
+        {'weight' in entry && (
+          <label class="wide check">
+            <input
+              type="checkbox"
+              checked={entry.protect}
+              disabled={!mayEdit}
+              onChange={({ currentTarget }) =>
+                editor.stage(`${which.name}: ${currentTarget.checked ? 'protected' : 'no longer protected'}`, {
+                  op: 'set_protect',
+                  ...which,
+                  protect: currentTarget.checked,
+                })
+              }
+            />
+            Keeps its drones where there are fewer
+          </label>
+        )}
         {'soft_edge_m' in entry && (
           <NumberField
             label="Soft edge, m"

@@ -283,7 +283,7 @@ export class Editor {
     const free = freeName(this.session.draft.value, kind, name ?? (kind === 'area' ? 'area' : 'no-fly'));
     const entry =
       kind === 'area'
-        ? { name: free, outline_m, weight: 5, soft_edge_m: this.softEdge(), revisit_s: null }
+        ? { name: free, outline_m, weight: 5, soft_edge_m: this.softEdge(), revisit_s: null, protect: false }
         : { name: free, outline_m };
     if (this.stage(`${kind === 'area' ? 'area' : 'no-fly polygon'} ${free}`, { op: 'add', kind, entry }))
       this.select({ kind, name: free });

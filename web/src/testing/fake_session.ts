@@ -13,7 +13,7 @@ export const targetsOf = (revision: number, weight: number, names = ['east'], by
   can_redo: false,
   undo_what: '',
   redo_what: '',
-  clusters: names.map((name) => ({ name, points_m: [[1, 1]], weight, revisit_s: null })),
+  clusters: names.map((name) => ({ name, points_m: [[1, 1]], weight, revisit_s: null, protect: false })),
   areas: [],
   no_fly: [],
   uniform_floor: 0,
