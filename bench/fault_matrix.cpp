@@ -55,9 +55,9 @@ std::string fly(const Job& job, const Mission& mission) {
   if (job.fault == kFaults)
     return fmt::format("{},{}", job.key(), runtime::false_alarms(mission, make_fleet, job.seed, kQuietFlightS));
   const FaultTrial t = runtime::fly_trial(mission, make_fleet, static_cast<Misfortune>(job.fault), job.seed);
-  return fmt::format("{},{:d},{:d},{:d},{:d},{},{},{},{},{},{}", job.key(), t.has_shown, t.is_noticed, t.is_in_time,
+  return fmt::format("{},{:d},{:d},{:d},{:d},{},{},{},{},{},{},{}", job.key(), t.has_shown, t.is_noticed, t.is_in_time,
                      t.is_named_rightly, t.delay_s, t.false_alarms, t.close_ticks, t.contact_ticks,
-                     t.others_violation_ticks, t.unnoticed_s);
+                     t.others_violation_ticks, t.unnoticed_s, t.evadable_pairs);
 }
 
 using Results = std::map<std::string, std::vector<double>>;
@@ -69,7 +69,7 @@ Results read_results(const std::string& path) {
     std::stringstream fields(line);
     std::vector<double> values;
     for (std::string field; std::getline(fields, field, ',');) values.push_back(std::strtod(field.c_str(), nullptr));
-    const bool is_whole = values.size() == 13 || (values.size() == 4 && values[1] == static_cast<double>(kFaults));
+    const bool is_whole = values.size() == 14 || (values.size() == 4 && values[1] == static_cast<double>(kFaults));
     if (is_whole) results[fmt::format("{},{},{}", values[0], values[1], values[2])] = values;
   }
   return results;
@@ -123,6 +123,7 @@ struct Cell {
   double close = 0.0;
   double contact = 0.0;
   double others = 0.0;
+  double evadable = 0.0;
   double false_alarms = 0.0;
   std::vector<double> delays;
   std::vector<double> unnoticed;
@@ -137,6 +138,7 @@ Cell cell_of(const Results& results, std::size_t vehicle, std::size_t fault) {
     cell.close += v[9] > 0.0 ? 1.0 : 0.0;
     cell.contact += v[10] > 0.0 ? 1.0 : 0.0;
     cell.others += v[11] > 0.0 ? 1.0 : 0.0;
+    cell.evadable += v[13] > 0.0 ? 1.0 : 0.0;
     if (v[3] == 0.0) continue;
     ++cell.shown;
     cell.noticed += v[4] != 0.0 ? 1U : 0U;
@@ -155,8 +157,10 @@ void print_tables(const Results& results) {
   fmt::print(
       "| fault | vehicle | flights | shown | stated s | median s | worst s | since it befell: median s | worst s | in "
       "time | ever | named rightly | "
-      "flights with: closer than R_s to it | contact | others' violations | false alarms |\n");
-  fmt::print("| --- | --- | --- | --- | --- | --- | --- | --- | --- | --- | --- | --- | --- | --- | --- | --- |\n");
+      "flights with: closer than R_s to it | of these it could have been evaded | contact | others' violations | false "
+      "alarms |\n");
+  fmt::print(
+      "| --- | --- | --- | --- | --- | --- | --- | --- | --- | --- | --- | --- | --- | --- | --- | --- | --- |\n");
   Cell sum;
   for (std::size_t fault = 0; fault < kFaults; ++fault) {
     for (std::size_t vehicle = 0; vehicle < kVehicles.size(); ++vehicle) {
@@ -165,15 +169,19 @@ void print_tables(const Results& results) {
                                                    static_cast<Misfortune>(fault));
       const bool any = !cell.delays.empty();
       fmt::print(
-          "| {} | {} | {} | {} | {:.2f} | {:.2f} | {:.2f} | {:.2f} | {:.2f} | {} | {} | {} | {} | {} | {} | {} |\n",
+          "| {} | {} | {} | {} | {:.2f} | {:.2f} | {:.2f} | {:.2f} | {:.2f} | {} | {} | {} | {} | {} | {} | {} | {} "
+          "|\n",
           runtime::kMisfortuneWords[fault], kVehicles[vehicle], cell.trials, cell.shown, stated,
           any ? cell.delays[cell.delays.size() / 2] : 0.0, any ? cell.delays.back() : 0.0,
           any ? cell.unnoticed[cell.unnoticed.size() / 2] : 0.0, any ? cell.unnoticed.back() : 0.0, cell.in_time,
-          cell.noticed, cell.named, cell.close, cell.contact, cell.others, cell.false_alarms);
+          cell.noticed, cell.named, cell.close, cell.evadable, cell.contact, cell.others, cell.false_alarms);
       sum.shown += cell.shown;
       sum.in_time += cell.in_time;
       sum.noticed += cell.noticed;
       sum.named += cell.named;
+      sum.close += cell.close;
+      sum.evadable += cell.evadable;
+      sum.others += cell.others;
     }
   }
   const auto share = [&](std::size_t count) {
@@ -181,6 +189,11 @@ void print_tables(const Results& results) {
   };
   fmt::print("\nof {} faults that showed: {:.2f} % noticed in time, {:.2f} % ever, {:.2f} % named rightly\n\n",
              sum.shown, share(sum.in_time), share(sum.noticed), share(sum.named));
+  fmt::print(
+      "closer than R_s to the faulty drone: {:.0f} flights, in {:.0f} of which it could have been evaded; violations "
+      "of "
+      "others: {:.0f}\n\n",
+      sum.close, sum.evadable, sum.others);
   for (std::size_t vehicle = 0; vehicle < kVehicles.size(); ++vehicle) {
     double hours = 0.0;
     double alarms = 0.0;

@@ -3,11 +3,13 @@
 #include <algorithm>
 #include <cmath>
 #include <deque>
+#include <limits>
 #include <numbers>
 #include <vector>
 
 #include "vigil/core/dynamics/random_stream.hpp"
 #include "vigil/runtime/controller_setup.hpp"
+#include "vigil/runtime/evasion.hpp"
 #include "vigil/runtime/fault_setup.hpp"
 #include "vigil/runtime/mission_margins.hpp"
 #include "vigil/runtime/mission_setup.hpp"
@@ -178,10 +180,19 @@ class Trial {
       flight_.step();
       take(now_s);
     }
+    result_.evadable_pairs = static_cast<std::uint64_t>(
+        std::ranges::count_if(close_pairs_, [&](const ClosePair& pair) { return was_evadable(pair); }));
     return result_;
   }
 
  private:
+  /// Two that came too close, and after how many ticks since it befell.
+  struct ClosePair {
+    std::size_t i = 0;
+    std::size_t j = 0;
+    std::size_t tick = 0;
+  };
+
   void befall(double now_s) {
     has_befallen_ = true;
     befell_s_ = now_s;
@@ -250,6 +261,8 @@ class Trial {
       alarms_[i] = alarm ? 1 : 0;
     }
     if (!has_befallen_) return;
+    const std::span<const TruthSample> truth = fleet_->truth();
+    past_.emplace_back(truth.begin(), truth.end());
     if (!result_.has_shown && has_shown()) {
       result_.has_shown = true;
       shown_s_ = now_s;
@@ -303,6 +316,45 @@ class Trial {
     const bool concerns = is_concerned(i) || is_concerned(j);
     if (distance_m < limits_.separation_m - 1e-9) ++(concerns ? result_.close_ticks : result_.others_violation_ticks);
     if (distance_m < mission_.safety.contact_distance_m) ++result_.contact_ticks;
+    const bool is_known = std::ranges::any_of(close_pairs_, [&](const ClosePair& p) { return p.i == i && p.j == j; });
+    if (concerns && distance_m < limits_.separation_m - 1e-9 && !is_known)
+      close_pairs_.push_back({i, j, past_.size() - 1});
+  }
+
+  /// Where the vehicle follows its orders only the tracker is wrong about it, or its velocity.
+  [[nodiscard]] bool follows_nobody() const {
+    switch (misfortune_) {
+      case Misfortune::kDeaf:
+      case Misfortune::kDrifting:
+      case Misfortune::kFliesAway:
+      case Misfortune::kLands:
+      case Misfortune::kPiloted:
+      case Misfortune::kFailed:
+        return true;
+      default:
+        return false;
+    }
+  }
+
+  [[nodiscard]] bool was_evadable(const ClosePair& pair) const {
+    if (!follows_nobody()) return true;
+    const double dt_s = tick_s(mission_);
+    double known_s = std::numeric_limits<double>::infinity();
+    if (result_.is_noticed) known_s = noticed_s_;
+    if (result_.has_shown) known_s = std::min(known_s, shown_s_ + std::max(0.0, stated_s_));
+    const double ticks = std::max(0.0, std::round((known_s - befell_s_) / dt_s));
+    if (ticks >= static_cast<double>(pair.tick)) return false;  // before anybody could know
+    const auto known = static_cast<std::size_t>(ticks);
+    const std::size_t healthy = pair.i == drone_ ? pair.j : pair.i;
+    std::vector<Vec2> places;
+    for (std::size_t n = known; n < past_.size(); ++n) places.push_back(past_[n][drone_].position);
+    const TruthSample& there = past_[known][healthy];
+    return could_evade({.position = there.position,
+                        .velocity = there.velocity,
+                        .speed_m_s = mission_.control.speed_limit_m_s,
+                        .lag_s = barrier_parameters(mission_).lag_s,
+                        .delay_s = command_delay_s(mission_) + dt_s},
+                       places, dt_s, {limits_.field, limits_.wall_distance_m, limits_.separation_m});
   }
 
   [[nodiscard]] bool is_decided() const {
@@ -323,6 +375,8 @@ class Trial {
   VirtualFlight flight_;
   FaultTrial result_;
   std::vector<std::uint8_t> alarms_;
+  std::vector<std::vector<TruthSample>> past_;  ///< since it befell
+  std::vector<ClosePair> close_pairs_;
   std::size_t drone_ = 0;
   std::size_t other_ = 0;
   double at_s_ = 0.0;

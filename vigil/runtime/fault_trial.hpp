@@ -38,14 +38,17 @@ inline constexpr std::array<std::string_view, 12> kMisfortuneWords{
 [[nodiscard]] double stated_time_s(const Mission& mission, Misfortune misfortune);
 
 struct FaultTrial {
-  bool has_shown = false;                    ///< what has not shown cannot be noticed
-  bool is_noticed = false;                   ///< until the end of the trial
-  bool is_in_time = false;                   ///< within stated_time_s()
-  bool is_named_rightly = false;             ///< by what stood there last within that time
-  double delay_s = 0.0;                      ///< from when it showed; negative: it was noticed before
-  double unnoticed_s = 0.0;                  ///< from when it befell
-  std::uint64_t false_alarms = 0;            ///< a monitor's, of drones with which nothing is wrong
-  std::uint64_t close_ticks = 0;             ///< ticks x pairs closer than separation_m, the faulty one among them
+  bool has_shown = false;          ///< what has not shown cannot be noticed
+  bool is_noticed = false;         ///< until the end of the trial
+  bool is_in_time = false;         ///< within stated_time_s()
+  bool is_named_rightly = false;   ///< by what stood there last within that time
+  double delay_s = 0.0;            ///< from when it showed; negative: it was noticed before
+  double unnoticed_s = 0.0;        ///< from when it befell
+  std::uint64_t false_alarms = 0;  ///< a monitor's, of drones with which nothing is wrong
+  std::uint64_t close_ticks = 0;   ///< ticks x pairs closer than separation_m, the faulty one among them
+  /// Pairs that came closer than separation_m though the other one could still have kept away when the fault was
+  /// noticed, or should have been (could_evade()); all such pairs where the faulty one follows its orders.
+  std::uint64_t evadable_pairs = 0;
   std::uint64_t contact_ticks = 0;           ///< ticks x pairs closer than contact_distance_m
   std::uint64_t others_violation_ticks = 0;  ///< of the others: separation, walls, no-fly
 };

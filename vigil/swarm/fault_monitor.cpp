@@ -317,6 +317,13 @@ void FaultMonitor::name_fault(Watched& drone) const noexcept {
     report = {};
 }
 
+/// Where it is seen to be where its orders lead it, it has the velocity that these give it, and not the one reported:
+/// others would keep clear of where that leads, and come too close to where it is.
+bool FaultMonitor::is_velocity_alone_wrong(const Watched& drone) noexcept {
+  return drone.disagreement_excess.is_raised && !drone.residual_excess.is_raised && !drone.is_doubted &&
+         !drone.stream.is_frozen && !drone.is_silent;
+}
+
 void FaultMonitor::watch_motion(Watched& drone, double link_age_s) const noexcept {
   const bool is_silent = link_age_s > setup_.parameters.bounds.silent_s;
   if (drone.is_silent && !is_silent) {
@@ -348,6 +355,7 @@ void FaultMonitor::look(std::span<const DroneObservation> observed, std::span<co
     watch_motion(drone, observed[i].link_age_s);
     watch_border(drone);
     name_fault(drone);
+    if (is_velocity_alone_wrong(drone)) drone.believed.velocity = drone.model.velocity();
   }
   now_s_ += setup_.dt_s;
 }

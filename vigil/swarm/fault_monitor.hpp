@@ -56,7 +56,8 @@ class FaultMonitor {
   void look(std::span<const DroneObservation> observed, std::span<const DroneMemory> drones,
             std::span<const Motion> expected, const FlownOrders& flown) noexcept;
 
-  /// What of a drone's observation is to be believed: another age, or no position at all, where it is doubted.
+  /// What of a drone's observation is to be believed: another age, or no position at all, where it is doubted, and the
+  /// velocity that its orders give it, where only the one that is reported is wrong.
   [[nodiscard]] const DroneObservation& believed(std::size_t drone) const noexcept { return watched_[drone].believed; }
   /// Where a drone is seen although it cannot be there: it may be what was believed before that was wrong, so others
   /// keep clear of both. None for as long as it may be a stray measurement, and where another drone is known to be.
@@ -133,6 +134,7 @@ class FaultMonitor {
   void watch_mode(Watched& drone, const DroneObservation& observed, const DroneMemory& memory) const noexcept;
   void watch_border(Watched& drone) const noexcept;
   void name_fault(Watched& drone) const noexcept;
+  [[nodiscard]] static bool is_velocity_alone_wrong(const Watched& drone) noexcept;
   [[nodiscard]] double residual_threshold(const Watched& drone) const noexcept;
   [[nodiscard]] Vec2 model_place_at(const Watched& drone, double stamp_s) const noexcept;
 

@@ -204,6 +204,28 @@ TEST(FaultMonitor, A_velocity_that_is_not_that_of_the_places_disagrees) {
   EXPECT_GT(world.monitor.report(0).measured, world.monitor.report(0).threshold);
 }
 
+TEST(FaultMonitor, A_drone_whose_velocity_alone_is_wrong_has_the_one_that_its_orders_give_it) {
+  World world(1);
+  world.fly(1.0);
+  world.fly(2.0, [](World& w) { w.seen[0].velocity += Vec2(0.0, 0.5); });
+  ASSERT_EQ(world.fault(), Fault::kDisagreeing);
+  EXPECT_NEAR((world.monitor.believed(0).velocity - world.orders[0]).norm(), 0.0, 0.01);
+  EXPECT_TRUE(world.monitor.believed(0).position.allFinite());
+  world.orders[0].setZero();
+  world.fly(30.0);
+  ASSERT_EQ(world.fault(), Fault::kNone);
+  EXPECT_EQ(world.monitor.believed(0).velocity, world.seen[0].velocity);
+}
+
+TEST(FaultMonitor, A_drone_that_neither_follows_its_orders_nor_flies_as_it_says_is_taken_at_its_word) {
+  World world(1);
+  world.fly(1.0);
+  world.astray = Vec2(0.0, 0.4);
+  world.fly(3.0, [](World& w) { w.seen[0].velocity += Vec2(0.5, 0.0); });
+  ASSERT_NE(world.fault(), Fault::kNone);
+  EXPECT_EQ(world.monitor.believed(0).velocity, world.seen[0].velocity);
+}
+
 TEST(FaultMonitor, A_drone_beyond_the_border_is_outside_until_it_is_back) {
   World world(1);
   world.truth[0] = Vec2(9.9, 5.0);
