@@ -11,13 +11,13 @@ Protection::Protection(const ergodic::Basis& basis)
 
 void Protection::retarget(const ergodic::Coefficients& phi_k, const ergodic::Coefficients& protected_k) noexcept {
   phi_k_ = phi_k;
-  if (protected_k.size() == phi_k.size())
+  const bool has_targets = phi_k(0, 0) > 0.0;
+  if (has_targets && protected_k.size() == phi_k.size())
     protected_k_ = protected_k;
   else
     protected_k_.setZero();
   // f_00 is constant: its coefficient is a density's integral, but for a factor
-  const double all = phi_k_(0, 0);
-  share_.usual = all > 0.0 ? std::clamp(protected_k_(0, 0) / all, 0.0, 1.0) : 0.0;
+  share_.usual = has_targets ? std::clamp(protected_k_(0, 0) / phi_k_(0, 0), 0.0, 1.0) : 0.0;
   share_.now = share_with(shortage_);
   asked_share_ = share_.usual;
   mix();

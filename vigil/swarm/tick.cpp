@@ -160,7 +160,7 @@ void SwarmState::set_target(const CoverageTarget& target) noexcept {
   else
     target_.phi_k.setZero();
   target_.has_targets = target.has_targets;
-  protection_.retarget(target_.phi_k, target.has_targets ? target.protected_k : ergodic::Coefficients());
+  protection_.retarget(target_.phi_k, target.protected_k);
   const bool is_same_ground = std::ranges::equal(target_.no_fly, target.no_fly, are_equal);
   target_.no_fly.assign(target.no_fly.begin(), target.no_fly.end());
   if (!is_same_ground) ways_.ground_changed(target_.no_fly);

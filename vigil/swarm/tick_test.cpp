@@ -1,5 +1,6 @@
 #include "vigil/swarm/tick.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
@@ -251,6 +252,21 @@ TEST(Tick, A_copy_of_the_state_continues_with_the_same_bits) {
   }
 }
 
+TEST(Tick, A_protected_part_of_another_shape_or_that_is_no_number_is_refused) {
+  IdealWorld world(parameters(1), {{0.5, 0.5}});
+  for (const ergodic::Coefficients& wrong :
+       {ergodic::Coefficients(ergodic::Coefficients::Zero(2, 3)),
+        ergodic::Coefficients(ergodic::Coefficients::Constant(world.state.basis().indices_per_axis(),
+                                                              world.state.basis().indices_per_axis(), NAN))}) {
+    auto target = std::make_shared<CoverageTarget>(*target_around(world.state, {1.5, 1.5}));
+    target->protected_k = wrong;
+    world.step({set_target(target)});
+    const auto& events = world.snapshot.events;
+    EXPECT_EQ(std::ranges::count(events, EventKind::kWishRefused, &Event::kind), 1);
+    EXPECT_FALSE(world.snapshot.has_metric);
+  }
+}
+
 TEST(Tick, Start_afresh_forgets_where_the_swarm_has_been) {
   IdealWorld world(parameters(1), {{0.5, 0.5}});
   world.step({set_target(target_around(world.state, {1.5, 1.5}))});
@@ -263,9 +279,10 @@ TEST(Tick, Start_afresh_forgets_where_the_swarm_has_been) {
 TEST(Tick, It_allocates_nothing_whatever_happens) {
   IdealWorld world(parameters(4), {{0.5, 0.5}, {1.0, 0.5}, {1.5, 0.5}, {2.0, 0.5}});
   const std::vector<Command> first{set_target(target_around(world.state, {1.5, 2.0}))};
-  const std::vector<Command> second{set_target(target_around(world.state, {0.5, 2.0})),
-                                    wish(CommandKind::kLand, 1),
-                                    {.kind = CommandKind::kHold, .drone = {}, .target = {}}};
+  auto protecting = std::make_shared<CoverageTarget>(*target_around(world.state, {0.5, 2.0}));
+  protecting->protected_k = 0.25 * protecting->phi_k;
+  const std::vector<Command> second{
+      set_target(protecting), wish(CommandKind::kLand, 1), {.kind = CommandKind::kHold, .drone = {}, .target = {}}};
   testing::AllocationGuard guard;
   tick(world.state, world.observations, first, world.snapshot);
   for (int i = 0; i < 200; ++i) tick(world.state, world.observations, {}, world.snapshot);

@@ -20,6 +20,8 @@ export class FakeProgram {
   /** Attention that is spread evenly; with 0 and no targets nothing is watched. */
   uniformFloor = 0.5;
   greetings = 0;
+  /** Where drones are charged. */
+  stations: readonly { name: string; pads_m: readonly (readonly [number, number])[] }[] = [];
   drones: DroneState[];
   holding: Holding[] = [];
 
@@ -191,7 +193,11 @@ export class FakeProgram {
       type: 'mission',
       epoch: 1,
       fleet: 'SIM',
-      mission: { name: this.missionName, drones: this.drones.map((_, i) => ({ id: this.idOf(i) })) },
+      mission: {
+        name: this.missionName,
+        drones: this.drones.map((_, i) => ({ id: this.idOf(i) })),
+        stations: this.stations,
+      },
       display: {
         field: { length_x_m: x, length_y_m: y, origin_m: this.origin, yaw_rad: 0 },
         dt_s: 0.02,

@@ -1,6 +1,5 @@
 #include "vigil/adapters/console/desk.hpp"
 
-#include <limits>
 #include <mutex>
 #include <utility>
 
@@ -207,8 +206,8 @@ void Desk::look() {
 
 /// Looks ahead by itself. Of so many drones that it would take long nobody asks it.
 void Desk::look_for_deadlines() {
-  constexpr std::size_t kMostDrones = 1000;
-  constexpr std::uint64_t kOwn = std::numeric_limits<std::uint64_t>::max();  // no client's
+  constexpr std::size_t kMostDrones = 300;
+  constexpr std::uint64_t kItself = 0;  // the only asker of that thread
   const swarm::Snapshot& now = frame_->snapshot;
   if (now.drones.size() > kMostDrones || !foresight_.is_due(now.active, now.time_s)) return;
   PreviewJob job{0, flight_, ground_->watch(), desk_->revision(), {}};
@@ -222,7 +221,7 @@ void Desk::look_for_deadlines() {
     foreseen->epoch = job.flight->epoch();
     foreseen->active = active;
   };
-  (void)previews_.submit(kOwn, work);  // where too many wait, there is a next time
+  (void)outlooks_.submit(kItself, work);  // where too many wait, there is a next time
 }
 
 void Desk::take_foreseen(GroundNews& news) {

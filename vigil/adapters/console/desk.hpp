@@ -195,6 +195,7 @@ class Desk {
   bool save_failed_ = false;
   // Last: they end before what they tell is gone.
   runtime::PreviewThread previews_;
+  runtime::PreviewThread outlooks_;   ///< apart: nobody waits for what nobody asked for
   runtime::PreviewThread questions_;  ///< apart: an answer takes a moment, a look ahead may take a second
 };
 

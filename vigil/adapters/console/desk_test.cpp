@@ -152,6 +152,26 @@ TEST_F(DeskTest, A_look_tells_of_the_ground_and_of_a_deadline_that_was_missed_on
   EXPECT_EQ(overdue, std::vector<std::string>{"east"});  // within 25 s; its deadline is 20 s
 }
 
+TEST_F(DeskTest, It_looks_ahead_by_itself_and_says_who_will_be_late) {
+  fly();
+  const runtime::TargetEdit hurry = runtime::SetRevisit{{runtime::TargetKind::kCluster, "east"}, 1.0};
+  desk().edit(5, {hurry}, 1, "Ana");
+  const auto has_said = [&] {
+    const auto grounds = told<GroundNews>();
+    return !grounds.empty() && grounds.back().foresight.has_value();
+  };
+  const auto until = std::chrono::steady_clock::now() + 30s;
+  while (!has_said() && std::chrono::steady_clock::now() < until) {
+    news.clear();
+    tick(5);
+    desk().look();
+  }
+  ASSERT_TRUE(has_said());
+  const GroundNews ground = told<GroundNews>().back();
+  EXPECT_TRUE(ground.foresight->text.starts_with("with 3 of 3 drones: east unseen for up to "));
+  EXPECT_GT(ground.areas.front().foreseen_s.value_or(0.0), 1.2);
+}
+
 TEST_F(DeskTest, An_event_of_the_mission_file_changes_targets_if_it_still_fits_and_is_of_this_flight) {
   fly("simulation:\n  duration_s: 5\n  events:\n    - {at_s: 1, do: set_weight, cluster: east, weight: 4}\n");
   desk().play(2, 0);  // of a flight that is not there
