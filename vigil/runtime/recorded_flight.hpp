@@ -22,7 +22,8 @@ struct TickColumns {
   std::vector<double> metric_percent;  ///< of the first metric; NaN before the first sample
   std::vector<std::size_t> active;     ///< how many drones were active
   std::vector<swarm::Idle> idle;
-  std::vector<std::uint8_t> fallback;  ///< 1: for some drone no velocity satisfied every row
+  std::vector<std::uint8_t>
+      fallback;  ///< 1: for some drone no velocity satisfied every row, since the kept tick before
   std::vector<Clearances> clearances;  ///< least since the kept tick before
 };
 
@@ -61,8 +62,10 @@ struct RecordedFlight {
   DroneColumns rows;
   std::vector<RecordedTargets> targets;  ///< in the order of time
   std::vector<LoggedEvent> events;       ///< in the order of time
-  bool is_complete = true;               ///< false: the recording was cut off; what is here was kept
-  std::string incomplete_reason;         ///< for people; empty where is_complete
+  /// Only every so manieth tick of the recording is here, and its last: see collect().
+  std::size_t every = 1;
+  bool is_complete = true;        ///< false: the recording was cut off; what is here was kept
+  std::string incomplete_reason;  ///< for people; empty where is_complete
 
   [[nodiscard]] std::size_t tick_count() const { return ticks.time_s.size(); }
   [[nodiscard]] std::size_t row(std::size_t tick, std::size_t drone) const { return tick * drones.size() + drone; }

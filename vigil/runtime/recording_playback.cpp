@@ -3,7 +3,10 @@
 #include <algorithm>
 #include <limits>
 #include <stdexcept>
+#include <tuple>
+#include <utility>
 
+#include "vigil/runtime/least_clearances.hpp"
 #include "vigil/runtime/mission_setup.hpp"
 #include "vigil/runtime/recollection.hpp"
 #include "vigil/runtime/recorded_targets.hpp"
@@ -35,6 +38,21 @@ class Columns {
  public:
   Columns(const Mission& mission, RecordedFlight& flight) : frame_(world_frame(mission)), flight_(flight) {}
 
+  void reserve(std::size_t ticks) {
+    DroneColumns& rows = flight_.rows;
+    const std::size_t n = ticks * flight_.drones.size();
+    std::apply([&](auto&... columns) { (columns.reserve(n), ...); },
+               std::tie(rows.mode, rows.activity, rows.position_m, rows.height_m, rows.velocity_m_s, rows.age_s,
+                        rows.nominal_m_s, rows.action, rows.command_m_s, rows.held_by, rows.fallback,
+                        rows.true_position_m, rows.true_height_m));
+  }
+
+  /// What a tick that is left out, or the next kept one, has to say of safety.
+  void add_safety(const RecordedTick& tick) {
+    least_ = least(least_, tick.clearances);
+    fallback_ = fallback_ || tick.snapshot.fallback;
+  }
+
   void add(const RecordedTick& tick) {
     const swarm::Snapshot& s = tick.snapshot;
     TickColumns& to = flight_.ticks;
@@ -43,8 +61,8 @@ class Columns {
     to.metric_percent.push_back(s.has_metric ? s.metric_percent : kNaN);
     to.active.push_back(s.active);
     to.idle.push_back(s.idle);
-    to.fallback.push_back(s.fallback ? 1 : 0);
-    to.clearances.push_back(tick.clearances);
+    to.fallback.push_back(std::exchange(fallback_, false) ? 1 : 0);
+    to.clearances.push_back(std::exchange(least_, {}));
     for (std::size_t i = 0; i < s.drones.size(); ++i) {
       add(s.drones[i]);
       add_truth(tick.truth.empty() ? nullptr : &tick.truth[i]);
@@ -83,7 +101,15 @@ class Columns {
 
   field::WorldFrame frame_;
   RecordedFlight& flight_;
+  Clearances least_;       ///< since the last kept tick
+  bool fallback_ = false;  ///< since the last kept tick
 };
+
+/// The least distance between kept ticks with which no more than `most_rows` rows are kept, but for the last tick's.
+std::size_t stride_for(std::uint64_t ticks, std::size_t drones, std::size_t most_rows) {
+  const std::uint64_t affordable = std::max<std::uint64_t>(1, most_rows / drones);
+  return (ticks + affordable - 1) / affordable;
+}
 
 }  // namespace
 
@@ -103,7 +129,7 @@ void play(FlightRecording& recording, const Mission& mission, Recorder& recorder
   recorder.finish();
 }
 
-RecordedFlight collect(FlightRecording& recording, const Mission& mission) {
+RecordedFlight collect(FlightRecording& recording, const Mission& mission, std::size_t most_rows) {
   expect_drones(recording, mission);
   if (recording.tick_count() == 0)
     throw std::runtime_error("the recording has no complete tick; fly the mission again");
@@ -114,8 +140,16 @@ RecordedFlight collect(FlightRecording& recording, const Mission& mission) {
   flight.events.assign(recording.events().begin(), recording.events().end());
   flight.incomplete_reason = recording.incomplete_reason();
   flight.is_complete = flight.incomplete_reason.empty();
+  const std::uint64_t ticks = recording.tick_count();
+  flight.every = stride_for(ticks, std::max<std::size_t>(1, flight.drones.size()), most_rows);
   Columns columns(mission, flight);
-  for_each_tick(recording, [&](const RecordedTick& tick) { columns.add(tick); });
+  columns.reserve(ticks / flight.every + 2);
+  std::uint64_t number = 0;
+  for_each_tick(recording, [&](const RecordedTick& tick) {
+    columns.add_safety(tick);
+    if (number % flight.every == 0 || number + 1 == ticks) columns.add(tick);
+    ++number;
+  });
   return flight;
 }
 

@@ -10,12 +10,12 @@
 #include <fmt/format.h>
 
 #include "vigil/adapters/recording/csv_file.hpp"
-#include "vigil/adapters/recording/least_clearances.hpp"
 #include "vigil/adapters/recording/own_messages.hpp"
 #include "vigil/adapters/recording/own_topics.hpp"
 #include "vigil/adapters/recording/recording_error.hpp"
 #include "vigil/adapters/recording/vocabulary.hpp"
 #include "vigil/runtime/controller_setup.hpp"
+#include "vigil/runtime/least_clearances.hpp"
 
 namespace vigil::recording {
 

@@ -6,9 +6,9 @@
 #include <optional>
 #include <utility>
 
-#include "vigil/adapters/recording/least_clearances.hpp"
 #include "vigil/adapters/recording/recording_error.hpp"
 #include "vigil/adapters/recording/vocabulary.hpp"
+#include "vigil/runtime/least_clearances.hpp"
 #include "vigil/swarm/names.hpp"
 
 namespace vigil::recording {

@@ -34,7 +34,7 @@ struct ClosestToLost {
   std::size_t lost = 0;
 };
 
-/// Over every kept tick, or every so manieth for very many drones. Infinite where there was no such pair.
+/// Over every kept tick. Infinite where there was no such pair.
 [[nodiscard]] ClosestToLost closest_to_lost(const FlightData& data);
 
 /// Distance between two drones at one tick; NaN where a place is unknown.

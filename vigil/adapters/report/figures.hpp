@@ -23,7 +23,7 @@ namespace vigil::report {
 
 /// The times that Fig. 7 shows, ascending: a drone's loss (or 20 %), 33 % and 50 % of the flight.
 [[nodiscard]] std::vector<double> snapshot_times(const FlightData& data);
-/// Fig. 7 and Fig. 5 show only the last part of each drone's way where there are very many.
+/// Fig. 7 and Fig. 5 show FlightData::drawn, and only the last part of each drone's way where there are very many.
 [[nodiscard]] bool shows_whole_trajectories(const FlightData& data);
 
 /// Fig. 6 has a panel for each drone, with the times shaded at which it is not active.

@@ -1,6 +1,7 @@
 #include "vigil/adapters/report/flight_data.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <iterator>
 #include <utility>
 
@@ -94,18 +95,35 @@ std::string FlightData::describe(const ActiveChange& change) const {
   return fmt::format("{} drones back", change.returned.size());
 }
 
+std::vector<std::size_t> chosen_evenly(std::size_t count, std::size_t most) {
+  std::vector<std::size_t> chosen;
+  for (std::size_t k = 0; k < std::min(count, most); ++k) {
+    // One of each of `most` equal stretches. Always the first one would be one column of a grid whose rows are as long
+    // as a stretch; multiples of the golden section fall everywhere between a stretch's ends.
+    constexpr double kGoldenSection = 0.6180339887498949;
+    const double turns = kGoldenSection * static_cast<double>(k);
+    const double within = count > most ? turns - std::floor(turns) : 0.0;
+    const double stretch = count > most ? static_cast<double>(count) / static_cast<double>(most) : 1.0;
+    chosen.push_back(static_cast<std::size_t>((static_cast<double>(k) + within) * stretch));
+  }
+  return chosen;
+}
+
 FlightData prepare(const RecordedFlight& flight, const runtime::Mission& mission) {
   check_drones(flight, mission);
-  FlightData data{flight, mission, runtime::monitored_field(mission), false, {}, {}, {}, {}};
+  FlightData data{flight, mission, runtime::monitored_field(mission), false, {}, {}, {}, {}, {}};
   const field::WorldFrame frame = runtime::world_frame(mission);
   data.has_truth = std::any_of(flight.rows.true_position_m.begin(), flight.rows.true_position_m.end(),
                                [](const Vec2& p) { return p.allFinite(); });
+  data.positions.reserve(flight.rows.position_m.size());
+  data.commands.reserve(flight.rows.command_m_s.size());
   for (const Vec2& p : data.has_truth ? flight.rows.true_position_m : flight.rows.position_m) {
     data.positions.push_back(frame.point_to_field(p));
   }
   for (const Vec2& u : flight.rows.command_m_s) data.commands.push_back(frame.vector_to_field(u));
   data.steps_s = steps_of(flight.ticks.time_s, mission.control.rate_hz);
   data.changes = changes_of(flight);
+  data.drawn = chosen_evenly(data.drones(), kMostDrawn);
   return data;
 }
 

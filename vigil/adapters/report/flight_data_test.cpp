@@ -1,7 +1,10 @@
 #include "vigil/adapters/report/flight_data.hpp"
 
 #include <algorithm>
+#include <array>
+#include <functional>
 #include <limits>
+#include <random>
 
 #include <gtest/gtest.h>
 
@@ -57,6 +60,54 @@ TEST(Distances, The_least_to_a_nearest_neighbour_is_the_least_of_all_pairs) {
     EXPECT_LE(d.least_m, d.low_m);
     EXPECT_LE(d.low_m, d.median_m);
     EXPECT_LE(d.median_m, d.high_m);
+  }
+}
+
+TEST(Distances, Neighbours_that_are_looked_for_in_a_grid_are_the_nearest_of_all) {
+  std::mt19937 random(7);
+  std::uniform_real_distribution<double> anywhere(-1.6, 1.6);  // also beyond the border
+  SampleOptions options{.drones = 60, .duration_s = 1.0};
+  runtime::RecordedFlight flight = sample_flight(options);
+  for (Vec2& place : flight.rows.true_position_m) place = {anywhere(random), anywhere(random)};
+  for (std::size_t i = 0; i < options.drones; i += 5) {
+    flight.rows.activity[flight.row(6, i)] = swarm::Activity::kGrounded;
+    flight.rows.mode[flight.row(6, i)] = swarm::VehicleMode::kGrounded;
+  }
+  const runtime::Mission mission = sample_mission(options);
+  const FlightData data = prepare(flight, mission);
+
+  for (const NearestDistances& d : nearest_distances(data))
+    EXPECT_NEAR(d.least_m, sample_nearest(flight, d.tick), 1e-12);
+  double least = std::numeric_limits<double>::infinity();
+  for (std::size_t i = 0; i < options.drones; i += 5)
+    for (std::size_t j = 0; j < options.drones; ++j)
+      if (flight.is_active(6, j)) least = std::min(least, distance_m(data, 6, i, j));
+  const ClosestToLost closest = closest_to_lost(data);
+  EXPECT_EQ(closest.distance_m, least);
+  EXPECT_EQ(closest.tick, 6U);
+  EXPECT_EQ(distance_m(data, 6, closest.active, closest.lost), least);
+}
+
+TEST(ChosenEvenly, Few_are_all_chosen) {
+  EXPECT_EQ(chosen_evenly(3, 400), (std::vector<std::size_t>{0, 1, 2}));
+  EXPECT_TRUE(chosen_evenly(0, 400).empty());
+}
+
+TEST(ChosenEvenly, Each_quarter_of_a_grid_has_its_quarter_of_the_chosen_however_wide_it_is) {
+  constexpr std::size_t kCount = 100'000;
+  for (const std::size_t columns : {100U, 250U, 316U, 317U, 400U, 500U, 1000U}) {
+    const std::vector<std::size_t> chosen = chosen_evenly(kCount, kMostDrawn);
+    ASSERT_EQ(chosen.size(), kMostDrawn);
+    EXPECT_TRUE(std::adjacent_find(chosen.begin(), chosen.end(), std::greater_equal<>()) == chosen.end());
+    EXPECT_LT(chosen.back(), kCount);
+    std::array<std::size_t, 4> along_x{};
+    std::array<std::size_t, 4> along_y{};
+    for (const std::size_t number : chosen) {
+      ++along_x[4 * (number % columns) / columns];
+      ++along_y[4 * number / kCount];
+    }
+    for (const std::size_t share : along_x) EXPECT_NEAR(static_cast<double>(share), 100.0, 10.0) << columns;
+    for (const std::size_t share : along_y) EXPECT_NEAR(static_cast<double>(share), 100.0, 1.0) << columns;
   }
 }
 

@@ -55,6 +55,12 @@ std::string figure_section(const PageFigure& figure) {
       finding_list(figure.findings, Source::kMission, "What the mission asks for, and this recording"));
 }
 
+std::string ordinal(std::size_t number) {
+  const bool is_teen = number % 100 / 10 == 1;
+  const std::size_t digit = is_teen ? 0 : number % 10;
+  return fmt::format("{}{}", number, digit == 1 ? "st" : digit == 2 ? "nd" : digit == 3 ? "rd" : "th");
+}
+
 std::string header(const FlightData& data) {
   const runtime::Mission& mission = data.mission;
   return fmt::format(
@@ -62,6 +68,22 @@ std::string header(const FlightData& data) {
       "<code>{}</code></p></header>\n",
       escaped(mission.name), escaped(mission.description), data.drones(), data.field.length_x, data.field.length_y,
       data.end_s() - data.time_s(0), escaped(runtime::name_of(mission.control.accounting)));
+}
+
+/// What a figure of so many drones, or so long a flight, leaves out.
+std::string thinning(const FlightData& data) {
+  std::string text;
+  if (!data.draws_all()) {
+    text += fmt::format("Maps draw {} of the {} drones, evenly chosen; all else is of all drones. ", data.drawn.size(),
+                        data.drones());
+  }
+  if (data.flight.every > 1) {
+    text += fmt::format(
+        "Of the recorded ticks each {} and the last are looked at, to keep within memory; distances to the border, to "
+        "no-fly areas and of the nearest pair, and fall-backs, are those of all of them.",
+        ordinal(data.flight.every));
+  }
+  return text.empty() ? "" : fmt::format("<section class=\"note\">{}</section>\n", text);
 }
 
 std::string tally(const std::vector<Finding>& findings, Source source, const char* what) {
@@ -156,7 +178,7 @@ std::string page(const FlightData& data, const CoverageMap& map, const SummaryFa
       "content=\"width=device-width, "
       "initial-scale=1\"><title>{} - flight report</title><style>{}</style></head>\n<body><main>\n",
       escaped(data.mission.name), kPageStyle);
-  text += header(data) + warnings(facts) + tiles(facts, figures);
+  text += header(data) + warnings(facts) + thinning(data) + tiles(facts, figures);
   for (const PageFigure& figure : figures) text += figure_section(figure);
   text += accounting_section(data, map);
   text += "<div class=\"columns\">\n" + attention_section(map) + deadline_section(facts) +

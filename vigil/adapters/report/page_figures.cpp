@@ -11,8 +11,11 @@
 namespace vigil::report {
 namespace {
 
-const char* path_note(const FlightData& data) {
-  return shows_whole_trajectories(data) ? "Greens: each drone's way." : "Greens: the last part of each drone's way.";
+std::string path_note(const FlightData& data) {
+  if (data.draws_all())
+    return shows_whole_trajectories(data) ? "Greens: each drone's way." : "Greens: the last part of each drone's way.";
+  return fmt::format("Greens: the last part of the ways of {} of the {} drones, evenly chosen.", data.drawn.size(),
+                     data.drones());
 }
 
 /// Whether some drone is not active at some kept tick.
@@ -26,16 +29,20 @@ std::string input_note(const FlightData& data) {
   return std::string(has_grey ? "Grey: the drone is not active. " : "") + "Dashed: the velocity limit.";
 }
 
-/// Of the three maps.
-bool has_crosses(const FlightData& data) {
-  const std::vector<double> times = snapshot_times(data);
-  return std::any_of(times.begin(), times.end(),
-                     [&](double time_s) { return data.flight.ticks.active[data.tick_at(time_s)] < data.drones(); });
+/// How many drones are not active in that of the three maps where it is most.
+std::size_t most_inactive(const FlightData& data) {
+  std::size_t most = 0;
+  for (const double time_s : snapshot_times(data))
+    most = std::max(most, data.drones() - data.flight.ticks.active[data.tick_at(time_s)]);
+  return most;
 }
 
 std::string snapshot_note(const FlightData& data) {
-  return fmt::format("Red: the importance map of that time. {} Dots: active drones{}.", path_note(data),
-                     has_crosses(data) ? "; crosses: drones that are not active" : "");
+  const std::size_t inactive = most_inactive(data);
+  const std::string crosses = inactive == 0 ? "" : "; crosses: drones that are not active";
+  const std::string some = inactive > kMostDrawn ? fmt::format(", {} of them at most", kMostDrawn) : "";
+  return fmt::format("Red: the importance map of that time. {} Dots: {}active drones{}{}.", path_note(data),
+                     data.draws_all() ? "" : "those that are ", crosses, some);
 }
 
 std::string distance_note(const FlightData& data) {

@@ -43,13 +43,13 @@ std::string line(const LineStyle& style) {
   return fmt::format("with lines lw {} lc rgb '{}' dt {}", style.width, style.colour, style.dash);
 }
 
-// The drones that are active, or not, at a tick.
+// Those drones that are active, or not, at a tick.
 void add_places(Trajectories& out, const FlightData& data, const std::string& name, std::size_t tick, bool active,
-                const std::string& point) {
+                const std::vector<std::size_t>& drones, const std::string& point) {
   Curve places;
-  for (std::size_t i = 0; i < data.drones(); ++i) {
-    if (data.flight.is_active(tick, i) != active || !is_known(data, tick, i)) continue;
-    places.push_back(data.positions[data.flight.row(tick, i)]);
+  for (const std::size_t i : drones) {
+    if (data.flight.is_active(tick, i) == active && is_known(data, tick, i))
+      places.push_back(data.positions[data.flight.row(tick, i)]);
   }
   if (places.empty()) return;
   out.data += block(name, places);
@@ -199,21 +199,32 @@ std::string density_plot(std::string_view name, unsigned colour, double peak) {
       name, colour >> 16U, (colour >> 8U) & 0xFFU, colour & 0xFFU, peak, colour);
 }
 
+std::vector<std::size_t> shown_inactive(const FlightData& data, std::size_t tick) {
+  std::vector<std::size_t> inactive;
+  for (std::size_t i = 0; i < data.drones(); ++i)
+    if (!data.flight.is_active(tick, i)) inactive.push_back(i);
+  std::vector<std::size_t> shown;
+  for (const std::size_t number : chosen_evenly(inactive.size(), kMostDrawn)) shown.push_back(inactive[number]);
+  return shown;
+}
+
 Trajectories trajectories(const FlightData& data, std::string_view name, double from_s, double to_s) {
   Trajectories out;
-  const std::size_t from = data.tick_at(from_s);
+  constexpr std::size_t kLeastSteps = 3;  // so that a thinned recording has ways to show, too
   const std::size_t to = data.tick_at(to_s);
+  const std::size_t from = std::min(data.tick_at(from_s), to - std::min(to, kLeastSteps));
   const bool few = data.drones() <= kPaths.size();
-  const std::size_t points = std::clamp<std::size_t>(kPathPoints / data.drones(), 10, 2500);
-  for (std::size_t i = 0; i < data.drones(); ++i) {
+  const std::size_t points = std::clamp<std::size_t>(kPathPoints / data.drawn.size(), 10, 2500);
+  for (const std::size_t i : data.drawn) {
     out.data += block(fmt::format("{}{}", name, i + 1), thinned(path_of(data, i, from, to), points));
     const std::string style = few ? line(kPaths[i]) : kManyPaths;
     out.plot += fmt::format(", ${}{} using 1:2 {}", name, i + 1, style);
     if (few) out.legend += fmt::format("{}NaN {} title {}", i == 0 ? "" : ", ", style, literal(data.flight.drones[i]));
   }
   const double size = data.drones() <= kFewDrones ? 0.9 : 0.45;
-  add_places(out, data, fmt::format("{}_on", name), to, true, fmt::format("pt 7 ps {}", size));
-  add_places(out, data, fmt::format("{}_off", name), to, false, fmt::format("pt 2 ps {} lw 2", size + 0.3));
+  add_places(out, data, fmt::format("{}_on", name), to, true, data.drawn, fmt::format("pt 7 ps {}", size));
+  add_places(out, data, fmt::format("{}_off", name), to, false, shown_inactive(data, to),
+             fmt::format("pt 2 ps {} lw 2", size + 0.3));
   out.labels = names_at(data, to);
   return out;
 }

@@ -49,7 +49,11 @@ struct TimeUnit {
 /// Plot elements: the density as a colour (0xRRGGBB) that grows opaque towards `peak`, and its contours.
 [[nodiscard]] std::string density_plot(std::string_view name, unsigned colour, double peak);
 
-/// Each drone's way between two times, and its place at the later one: a dot where it is active, a cross where not.
+/// The drones that are not active at a tick: all, or kMostDrawn of them.
+[[nodiscard]] std::vector<std::size_t> shown_inactive(const FlightData& data, std::size_t tick);
+
+/// Each drawn drone's way between two times, and its place at the later one: a dot where it is active, a cross where
+/// not. Crosses are of shown_inactive().
 struct Trajectories {
   std::string data;    ///< blocks, whose names begin with `name`
   std::string plot;    ///< plot elements, each after a comma

@@ -85,6 +85,33 @@ TEST(WriteReport, A_crowd_is_shown_by_its_distribution) {
   EXPECT_EQ(series_of(report.folder.path(), "fig8_distances"), 4U);
 }
 
+TEST(WriteReport, Of_very_many_drones_some_are_drawn_and_the_page_says_so) {
+  Report report({.drones = 2500, .duration_s = 0.4});
+  for (std::size_t i = 0; i < 1000; ++i)
+    report.flight.rows.activity[report.flight.row(0, i)] = swarm::Activity::kGrounded;
+  report.flight.ticks.active[0] = 1500;
+  const std::string page = report.write();
+  EXPECT_LT(series_of(report.folder.path(), "fig5_density"), kMostDrawn + 20U);
+  EXPECT_LT(page.size(), 4U << 20U);
+  EXPECT_NE(page.find("Maps draw 400 of the 2500 drones, evenly chosen; all else is of all drones."),
+            std::string::npos);
+  EXPECT_NE(page.find("the last part of the ways of 400 of the 2500 drones"), std::string::npos);
+  EXPECT_NE(page.find("crosses: drones that are not active, 400 of them at most"), std::string::npos);
+}
+
+TEST(WriteReport, A_page_of_few_drones_and_all_ticks_leaves_nothing_out) {
+  Report report;
+  const std::string page = report.write();
+  EXPECT_EQ(page.find("evenly chosen"), std::string::npos);
+  EXPECT_EQ(page.find("Of the recorded ticks"), std::string::npos);
+}
+
+TEST(WriteReport, Where_ticks_were_left_out_the_page_says_which) {
+  Report report;
+  report.flight.every = 3;
+  EXPECT_NE(report.write().find("Of the recorded ticks each 3rd and the last are looked at"), std::string::npos);
+}
+
 TEST(WriteReport, The_page_refers_to_no_other_place) {
   Report report;
   const std::string page = report.write();
