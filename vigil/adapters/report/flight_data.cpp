@@ -1,8 +1,8 @@
 #include "vigil/adapters/report/flight_data.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <iterator>
+#include <random>
 #include <utility>
 
 #include <fmt/format.h>
@@ -96,15 +96,15 @@ std::string FlightData::describe(const ActiveChange& change) const {
 }
 
 std::vector<std::size_t> chosen_evenly(std::size_t count, std::size_t most) {
+  const std::size_t stretches = std::min(count, most);
+  // One of each of equal stretches, anywhere in it: always the first would be one column of a grid whose rows are as
+  // long as a stretch, and any regular step shows as a pattern in some grid.
+  std::minstd_rand random;
   std::vector<std::size_t> chosen;
-  for (std::size_t k = 0; k < std::min(count, most); ++k) {
-    // One of each of `most` equal stretches. Always the first one would be one column of a grid whose rows are as long
-    // as a stretch; multiples of the golden section fall everywhere between a stretch's ends.
-    constexpr double kGoldenSection = 0.6180339887498949;
-    const double turns = kGoldenSection * static_cast<double>(k);
-    const double within = count > most ? turns - std::floor(turns) : 0.0;
-    const double stretch = count > most ? static_cast<double>(count) / static_cast<double>(most) : 1.0;
-    chosen.push_back(static_cast<std::size_t>((static_cast<double>(k) + within) * stretch));
+  for (std::size_t k = 0; k < stretches; ++k) {
+    const std::size_t first = count * k / stretches;
+    const std::size_t length = count * (k + 1) / stretches - first;
+    chosen.push_back(first + random() % length);
   }
   return chosen;
 }

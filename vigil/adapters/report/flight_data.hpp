@@ -49,7 +49,7 @@ struct FlightData {
 inline constexpr std::size_t kMostDrawn = 400;
 
 /// At most `most` of the numbers below `count`, ascending, spread over all of them: also over both directions of a grid
-/// that was numbered row by row, whatever its width.
+/// that was numbered row by row, whatever its width. Always the same ones.
 [[nodiscard]] std::vector<std::size_t> chosen_evenly(std::size_t count, std::size_t most);
 
 /// ReportError where the flight has no tick or its drones are not the mission's.

@@ -13,6 +13,7 @@
 namespace vigil::report {
 namespace {
 
+constexpr std::size_t kManyDrones = 100;    // of which dots would hide the ways
 constexpr std::size_t kPathPoints = 15000;  // of one map with all its trajectories
 
 struct LineStyle {
@@ -221,7 +222,7 @@ Trajectories trajectories(const FlightData& data, std::string_view name, double 
     out.plot += fmt::format(", ${}{} using 1:2 {}", name, i + 1, style);
     if (few) out.legend += fmt::format("{}NaN {} title {}", i == 0 ? "" : ", ", style, literal(data.flight.drones[i]));
   }
-  const double size = data.drones() <= kFewDrones ? 0.9 : 0.45;
+  const double size = data.drones() <= kFewDrones ? 0.9 : data.drones() <= kManyDrones ? 0.45 : 0.3;
   add_places(out, data, fmt::format("{}_on", name), to, true, data.drawn, fmt::format("pt 7 ps {}", size));
   add_places(out, data, fmt::format("{}_off", name), to, false, shown_inactive(data, to),
              fmt::format("pt 2 ps {} lw 2", size + 0.3));
