@@ -6,6 +6,7 @@
 
 #include <gtest/gtest.h>
 
+#include "vigil/adapters/report/flight_data.hpp"
 #include "vigil/adapters/report/report_error.hpp"
 #include "vigil/adapters/report/report_folder_for_tests.hpp"
 #include "vigil/adapters/report/sample_flight.hpp"
