@@ -85,7 +85,7 @@ CAMPAIGNS = (
 def fly(campaign, vigil, out, runs):
     """Flies what is missing of the campaign; its summary and its runs' summaries."""
     folder = out / campaign.name
-    command = [vigil, "campaign", f"missions/{campaign.mission}", "--runs", str(runs), "--out", str(folder)]
+    command = [str(vigil), "campaign", f"missions/{campaign.mission}", "--runs", str(runs), "--out", str(folder)]
     command += ["--vary", *campaign.vary]
     if campaign.settings:
         command += ["--set", *campaign.settings]

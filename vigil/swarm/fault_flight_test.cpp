@@ -169,6 +169,32 @@ TEST(FaultFlight, A_drone_that_does_not_follow_stays_an_obstacle_that_may_come_c
   EXPECT_EQ(world.snapshot.drones[0].order.velocity, Vec2(0.0, 0.0));
 }
 
+/// The least distance between a pilot's drone that crosses the whole field, at so much of u_max, and one that holds its
+/// place, so much beside its way.
+double least_beside_a_pilot(double speed, double beside_m) {
+  IdealWorld world(watched(2), {{0.3, 1.5}, {1.8, 1.5 + beside_m}});
+  world.step({wish(CommandKind::kHold, 1)});
+  const Vec2 velocity(speed * laboratory(2).barrier.u_max_m_s, 0.0);
+  double least = HUGE_VAL;
+  while (world.observations[0].position.x() < 2.8 && world.state.ticks() < 1000) {
+    const Vec2 place = world.observations[0].position + kDt * velocity;
+    world.step();
+    world.observations[0].position = place;
+    world.observations[0].velocity = velocity;
+    world.observations[0].mode = VehicleMode::kManual;
+    least = std::min(least, (world.observations[1].position - place).norm());
+  }
+  return least;
+}
+
+TEST(FaultFlight, Who_is_in_the_way_of_a_drone_that_nobody_steers_lets_it_pass_and_is_not_driven_into_a_wall) {
+  for (const double speed : {0.5, 1.0, 1.5, 2.0}) {
+    EXPECT_GE(least_beside_a_pilot(speed, 0.0), 0.2) << speed;
+    EXPECT_GE(least_beside_a_pilot(speed, 0.1), 0.2) << speed;
+    EXPECT_GE(least_beside_a_pilot(speed, -0.15), 0.2) << speed;
+  }
+}
+
 TEST(FaultFlight, Watching_allocates_nothing) {
   IdealWorld world = crossing_world();
   std::vector<DroneObservation> told = world.observations;

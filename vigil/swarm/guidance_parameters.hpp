@@ -1,6 +1,7 @@
 #pragma once
 
 #include "vigil/core/guidance/goal_seeker.hpp"
+#include "vigil/core/guidance/step_aside.hpp"
 #include "vigil/core/guidance/way_map.hpp"
 #include "vigil/core/safety/barrier.hpp"
 #include "vigil/swarm/command.hpp"
@@ -25,6 +26,17 @@ inline guidance::WayParameters way_parameters(const SwarmParameters& parameters)
           .wall_distance_m = barrier.wall_distance_m + reserve_m,
           .clearance_m = safety::no_fly_radius(barrier, reserve_m),
           .most_edges = kMaxNoFlyEdges};
+}
+
+/// Beside what flies as it likes: what the barrier keeps, and a little, so that it need not push.
+inline guidance::AsideParameters aside_parameters(const SwarmParameters& parameters) {
+  const safety::BarrierParameters& barrier = parameters.barrier;
+  constexpr double kRoom = 1.25;
+  return {.field = parameters.field,
+          .wall_distance_m = barrier.wall_distance_m + safety::wall_reserve(barrier, {}),
+          .room_m = kRoom * safety::barrier_radius(barrier),
+          .u_max_m_s = barrier.u_max_m_s,
+          .answer_s = barrier.lag_s + parameters.command_delay_s + parameters.observation_delay_s};
 }
 
 }  // namespace vigil::swarm

@@ -81,6 +81,7 @@ class SwarmState {
     bool has_change = false;       ///< of an activity
     bool has_traveller = false;
     bool has_starter = false;  ///< wants to take off
+    bool has_stray = false;    ///< nobody steers it, and it may meet others
     bool has_fallback = false;
   };
   /// Calls body(index, note) for every drone, part by part.
@@ -104,6 +105,7 @@ class SwarmState {
   void seek_goals() noexcept;
   void keep_safe(parallel::Workers* workers) noexcept;
   void add_doubted_places() noexcept;
+  void step_aside() noexcept;
   /// Whose place a body of the filter is; -1 is nobody's.
   [[nodiscard]] int drone_of(int body) const noexcept;
   void name_holders(safety::FilterReport& report) const noexcept;

@@ -4,10 +4,21 @@
 #include <cassert>
 #include <limits>
 
+#include "vigil/core/guidance/step_aside.hpp"
 #include "vigil/core/safety/barrier.hpp"
+#include "vigil/swarm/guidance_parameters.hpp"
 #include "vigil/swarm/tick.hpp"
 
 namespace vigil::swarm {
+namespace {
+
+/// May be about to meet others although nobody steers it there.
+bool is_stray(const safety::Body& body) {
+  return !body.is_controlled && body.is_obstacle && body.uncooperative_speed_m_s > 0.0 && body.position.allFinite() &&
+         body.velocity.allFinite();
+}
+
+}  // namespace
 
 safety::Explanation SwarmState::explain(DroneId drone) const {
   assert(ticks_ > 0 && drone.index() < drones_.size());
@@ -81,10 +92,30 @@ void SwarmState::name_holders(safety::FilterReport& report) const noexcept {
   report.nearest = drone_of(report.nearest);
 }
 
+/// Whoever is in the way of a drone that nobody controls wishes nothing else than to leave it.
+void SwarmState::step_aside() noexcept {
+  if (parameters_.barrier.kind == safety::BarrierKind::kPaper || !is_any(&PartNote::has_stray)) return;
+  const guidance::AsideParameters aside = aside_parameters(parameters_);
+  for (const safety::Body& body : bodies_) {
+    if (!is_stray(body)) continue;
+    const guidance::Stray stray{body.position, body.velocity};
+    if (!guidance::is_fast(aside, stray)) continue;
+    for (std::size_t index = 0; index < drones_.size(); ++index) {
+      if (!is_steered(drones_[index].activity)) continue;
+      const auto wish = guidance::step_aside(aside, stray, safety::barrier_point(parameters_.barrier, bodies_[index]));
+      if (wish) u_nom_[index] = *wish;
+    }
+  }
+}
+
 void SwarmState::keep_safe(parallel::Workers* workers) noexcept {
   bodies_.resize(drones_.size());
-  for_each_drone(workers, [&](std::size_t index, PartNote&) { bodies_[index] = body_of(index); });
+  for_each_drone(workers, [&](std::size_t index, PartNote& note) {
+    bodies_[index] = body_of(index);
+    note.has_stray = note.has_stray || is_stray(bodies_[index]);
+  });
   add_doubted_places();
+  step_aside();
   filter_.run(bodies_, target_.no_fly, u_nom_, u_, reports_, workers);
   if (!doubted_.empty())
     for (safety::FilterReport& report : reports_) name_holders(report);

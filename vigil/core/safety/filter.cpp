@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "vigil/core/safety/barrier.hpp"
+#include "vigil/core/safety/passing_row.hpp"
 
 namespace vigil::safety {
 namespace {
@@ -36,9 +37,11 @@ constexpr std::size_t kPart = 512;
 
 std::size_t parts_of(std::size_t count) { return (count + kPart - 1) / kPart; }
 
-/// Nobody can keep R_s from what is as fast as a drone may fly: who tries is driven into others, or a wall.
+/// Nobody can keep R_s for ever from what is about as fast as a drone may fly: who tries is driven into others, or a
+/// wall.
 bool may_outrun(const BarrierParameters& parameters, const Body& other) {
-  return !other.is_controlled && other.uncooperative_speed_m_s >= parameters.u_max_m_s;
+  constexpr double kFast = 0.6;
+  return !other.is_controlled && other.uncooperative_speed_m_s >= kFast * parameters.u_max_m_s;
 }
 
 /// The barrier of the slowest, oldest and most wayward pair of such bodies: none of theirs reaches farther.
@@ -299,7 +302,7 @@ void Filter::steer(std::size_t place, std::size_t own, const Body& body, std::sp
     // can contradict each other or a wall. They give way first: to rows that ask for less, so that they matter only
     // now.
     report.margin_used = true;
-    gather_lesser_pairs(own, body, z, rows);
+    gather_lesser_pairs(own, body, z, u_nom, rows);
     const double margin_m = wall_margin(parameters_);
     gather_walls(z, body, margin_m, Priority::kMargin, rows);
     gather_edges(z, body, no_fly, margin_m, Priority::kMargin, rows);
@@ -409,7 +412,18 @@ void Filter::add_pairs_one_by_one(std::size_t own, const Body& body, const Vec2&
   desk.gathered = 0;
 }
 
-void Filter::gather_lesser_pairs(std::size_t own, const Body& body, const Vec2& z, RowSet& rows) const noexcept {
+/// As wide as there is room for.
+std::optional<HalfPlane> Filter::row_beside(const Body& body, const Body& other, const Vec2& u_nom) const noexcept {
+  const double wide_m = parameters_.separation_m + parameters_.pair_margin_m;
+  for (const double radius_m : {wide_m, parameters_.separation_m, parameters_.contact_distance_m}) {
+    const auto row = passing_row(parameters_, body, other, radius_m, u_nom, Priority::kMargin);
+    if (row) return row;
+  }
+  return std::nullopt;
+}
+
+void Filter::gather_lesser_pairs(std::size_t own, const Body& body, const Vec2& z, const Vec2& u_nom,
+                                 RowSet& rows) const noexcept {
   grid_.visit_parts(z, reach_m_, [&](std::size_t first, std::size_t last) {
     for (std::size_t place = first; place < last; ++place) {
       const Body& other = bodies_[place];
@@ -422,9 +436,14 @@ void Filter::gather_lesser_pairs(std::size_t own, const Body& body, const Vec2& 
         const auto row = pair_row(parameters_, barrier, z_ij, v_ij, static_cast<int>(own), index, priority);
         if (row) rows.add(*row, {RowKind::kNeighbour, index, distance});
       };
-      add_row(margin_barrier(parameters_, other), Priority::kMargin);
-      add_row(bare_separation_barrier(parameters_, other),
-              may_outrun(parameters_, other) ? Priority::kMargin : Priority::kSeparation);
+      const bool is_fast = may_outrun(parameters_, other);
+      const auto beside = is_fast ? row_beside(body, other, u_nom) : std::nullopt;
+      if (beside) {
+        rows.add(*beside, {RowKind::kNeighbour, index, distance});
+      } else {
+        add_row(margin_barrier(parameters_, other), Priority::kMargin);
+        add_row(bare_separation_barrier(parameters_, other), is_fast ? Priority::kMargin : Priority::kSeparation);
+      }
       add_row(contact_barrier(parameters_, other), Priority::kPhysicalRadius);
     }
   });

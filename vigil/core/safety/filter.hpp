@@ -128,7 +128,10 @@ class Filter {
   void add_pairs(std::size_t own, const Body& body, const Vec2& z, FilterReport& report, Desk& desk) const noexcept;
   void add_pairs_one_by_one(std::size_t own, const Body& body, const Vec2& z, FilterReport& report,
                             Desk& desk) const noexcept;
-  void gather_lesser_pairs(std::size_t own, const Body& body, const Vec2& z, RowSet& rows) const noexcept;
+  [[nodiscard]] std::optional<HalfPlane> row_beside(const Body& body, const Body& other,
+                                                    const Vec2& u_nom) const noexcept;
+  void gather_lesser_pairs(std::size_t own, const Body& body, const Vec2& z, const Vec2& u_nom,
+                           RowSet& rows) const noexcept;
   void gather_walls(const Vec2& z, const Body& body, double reserve_m, Priority priority, RowSet& rows) const noexcept;
   void gather_edges(const Vec2& z, const Body& body, std::span<const field::Segment> no_fly, double reserve_m,
                     Priority priority, RowSet& rows) const noexcept;
