@@ -4,11 +4,9 @@
 #include <cassert>
 #include <cmath>
 #include <limits>
-#include <numbers>
 #include <numeric>
 
-#include <Eigen/Eigenvalues>
-#include <Eigen/LU>
+#include "vigil/core/field/gaussian_on_grid.hpp"
 
 namespace vigil::field {
 namespace {
@@ -20,12 +18,6 @@ constexpr double kMostCells = 1024.0;
 // The high-order end rule has negative weights: below this many cells a sigma it might see a narrow peak as negative
 // mass.
 constexpr double kResolvedCellsPerSigma = 6.0;
-
-double narrowest_sigma(const Gaussian& gaussian) {
-  return std::sqrt(Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d>(gaussian.covariance, Eigen::EigenvaluesOnly)
-                       .eigenvalues()
-                       .minCoeff());
-}
 
 double smallest_sigma(std::span<const Gaussian> mixture) {
   double smallest = std::numeric_limits<double>::infinity();
@@ -65,25 +57,6 @@ bool resolves(const Field& field, GridShape shape, double sigma) {
   const double cell =
       std::max(field.length_x / static_cast<double>(shape.nx), field.length_y / static_cast<double>(shape.ny));
   return sigma >= kResolvedCellsPerSigma * cell;
-}
-
-Eigen::ArrayXd midpoints(Eigen::Index n, double length) {
-  return (Eigen::ArrayXd::LinSpaced(n, 0.0, static_cast<double>(n - 1)) + 0.5) * (length / static_cast<double>(n));
-}
-
-// values += weight times (1).
-void add_gaussian(const Gaussian& gaussian, double weight, DensityGrid& grid) {
-  constexpr double kLowestExponent = -690.0;  // keeps what is nothing anyway from becoming a slow denormal number
-  const Eigen::Matrix2d precision = gaussian.covariance.inverse();
-  const double z = 2.0 * std::numbers::pi * std::sqrt(gaussian.covariance.determinant());
-  const Eigen::ArrayXd dx = midpoints(grid.values.rows(), grid.field.length_x) - gaussian.mean.x();
-  const Eigen::ArrayXd dy = midpoints(grid.values.cols(), grid.field.length_y) - gaussian.mean.y();
-  const Eigen::ArrayXd along_x = -0.5 * precision(0, 0) * dx.square();
-  for (Eigen::Index iy = 0; iy < dy.size(); ++iy) {
-    const double along_y = -0.5 * precision(1, 1) * dy[iy] * dy[iy];
-    const double mixed = -precision(0, 1) * dy[iy];
-    grid.values.col(iy) += (weight / z) * (along_x + mixed * dx + along_y).max(kLowestExponent).exp();
-  }
 }
 
 void add_mixture(std::span<const Gaussian> mixture, std::span<const double> weights, DensityGrid& grid) {
