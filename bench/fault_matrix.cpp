@@ -31,7 +31,7 @@ using runtime::Mission;
 constexpr std::array<std::string_view, 5> kVehicles{"ideal", "first_order_lag", "crazyflie", "arducopter", "px4"};
 constexpr std::size_t kFaults = runtime::kMisfortuneWords.size();
 constexpr double kQuietFlightS = 3600.0;
-constexpr std::uint64_t kFirstSeed = 80'000;  // of moments that no threshold was looked at with
+constexpr std::uint64_t kFirstSeed = 90'000;  // of moments that no threshold was looked at with
 
 std::unique_ptr<runtime::VirtualFleet> make_fleet(const Mission& mission) { return apps::simulated_fleet(mission); }
 

@@ -6,15 +6,16 @@
 namespace vigil::guidance {
 namespace {
 
-/// Of u_max. From what is slower a drone that is held by nobody gains more than it loses while it answers.
-constexpr double kFast = 0.4;
+/// Of u_max. What is slower takes so long that the filter, which gives way at once, has room enough.
+constexpr double kFast = 0.2;
 /// How many times as early as it must.
 constexpr double kEarly = 2.0;
 
-bool has_room(const AsideParameters& parameters, const Vec2& place) {
+/// Beyond what is kept from walls; negative where there is none.
+double spare_m(const AsideParameters& parameters, const Vec2& place) {
   const double least =
       std::min({place.x(), place.y(), parameters.field.length_x - place.x(), parameters.field.length_y - place.y()});
-  return least >= parameters.wall_distance_m;
+  return least - parameters.wall_distance_m;
 }
 
 }  // namespace
@@ -38,7 +39,8 @@ std::optional<Vec2> step_aside(const AsideParameters& parameters, const Stray& s
 
   const auto end = [&](double side) -> Vec2 { return place + (side * parameters.room_m - left_m) * left; };
   double side = left_m >= 0.0 ? 1.0 : -1.0;
-  if (!has_room(parameters, end(side)) && has_room(parameters, end(-side))) side = -side;
+  const double spare_there_m = spare_m(parameters, end(side));
+  if (spare_there_m < 0.0 && spare_m(parameters, end(-side)) > spare_there_m) side = -side;
   return side * parameters.u_max_m_s * left;
 }
 

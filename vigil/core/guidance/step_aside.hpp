@@ -26,8 +26,9 @@ struct AsideParameters {
 
 /// What a drone at `place` should wish that stands in the way of a stray: to leave its line of flight sideways, with
 /// u_max, in the time that this takes and as much again. To flee straight ahead of what is as fast as oneself ends at a
-/// wall. To the nearer side, or to the other one where a wall leaves no room there. None for a drone that is not in its
-/// way, or where the stray is not fast. It only wishes; the safety filter decides. Precondition: all finite.
+/// wall. To the nearer side, or to the other one where a wall leaves no room there, and more on that one. None for a
+/// drone that is not in its way, or where the stray is not fast. It only wishes; the safety filter decides.
+/// Precondition: all finite.
 [[nodiscard]] std::optional<Vec2> step_aside(const AsideParameters& parameters, const Stray& stray,
                                              const Vec2& place) noexcept;
 

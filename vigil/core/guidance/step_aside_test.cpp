@@ -58,9 +58,21 @@ TEST(StepAside, Where_a_wall_leaves_no_room_it_crosses_to_the_other_side) {
   EXPECT_GT(wish->y(), 0.0);
 }
 
+TEST(StepAside, In_a_corner_it_takes_the_side_that_has_more_room) {
+  // Slantwise to the right wall, just below the corner: there is less room below.
+  const auto wish = step_aside(parameters(), {{8.6, 4.3}, {0.3, 0.3}}, {9.3, 4.95});
+  ASSERT_TRUE(wish);
+  EXPECT_LT(wish->x(), 0.0);
+  EXPECT_GT(wish->y(), 0.0);
+  const auto other = step_aside(parameters(), {{8.3, 4.6}, {0.3, 0.3}}, {9.0, 5.35});  // to the upper wall
+  ASSERT_TRUE(other);
+  EXPECT_GT(other->x(), 0.0);
+  EXPECT_LT(other->y(), 0.0);
+}
+
 TEST(StepAside, What_is_slow_or_hovers_is_left_to_the_filter) {
   Stray slow = stray();
-  slow.velocity.x() = 0.1;
+  slow.velocity.x() = 0.09;
   EXPECT_FALSE(step_aside(parameters(), slow, {2.5, 3.0}));
   slow.velocity.setZero();
   EXPECT_FALSE(step_aside(parameters(), slow, slow.position));

@@ -37,10 +37,10 @@ constexpr std::size_t kPart = 512;
 
 std::size_t parts_of(std::size_t count) { return (count + kPart - 1) / kPart; }
 
-/// Nobody can keep R_s for ever from what is about as fast as a drone may fly: who tries is driven into others, or a
-/// wall.
+/// Nobody can keep R_s for ever from what comes on, fast or slowly: who tries to is driven into others, into a corner,
+/// or a wall.
 bool may_outrun(const BarrierParameters& parameters, const Body& other) {
-  constexpr double kFast = 0.6;
+  constexpr double kFast = 0.3;
   return !other.is_controlled && other.uncooperative_speed_m_s >= kFast * parameters.u_max_m_s;
 }
 
