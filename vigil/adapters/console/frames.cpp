@@ -50,74 +50,85 @@ std::uint8_t flags_of(const swarm::DroneSnapshot& drone) {
 
 bool was_seen(const swarm::DroneSnapshot& drone) { return std::isfinite(drone.age_s); }
 
-template <typename Write>
-void array_of(FrameWriter& out, const runtime::LiveFrame& frame, const Write& write) {
-  out.align();
-  for (const swarm::DroneSnapshot& drone : frame.snapshot.drones) write(drone);
-}
-
 void put_velocity(FrameWriter& out, const Vec2& velocity, double scale) {
   out.put(as_i16(velocity.x(), scale));
   out.put(as_i16(velocity.y(), scale));
 }
 
-std::size_t holding_rows(const runtime::LiveFrame& frame) {
-  std::size_t rows = 0;
-  for (const swarm::DroneSnapshot& drone : frame.snapshot.drones)
-    rows += static_cast<std::size_t>(drone.filter.holding_count);
-  return rows;
-}
+/// What a snapshot says of single drones.
+class DroneArrays {
+ public:
+  DroneArrays(const swarm::Snapshot& snapshot, const ShownDrones& shown) : drones_(snapshot.drones), shown_(shown) {}
 
-void put_snapshot_arrays(FrameWriter& out, const runtime::LiveFrame& frame, double scale) {
-  using Drone = swarm::DroneSnapshot;
-  array_of(out, frame, [&](const Drone& drone) {
-    out.put(was_seen(drone) ? as_f32(drone.position.x()) : kNone);
-    out.put(was_seen(drone) ? as_f32(drone.position.y()) : kNone);
-  });
-  array_of(out, frame, [&](const Drone& drone) { out.put(as_f32(drone.height_m)); });
-  array_of(out, frame, [&](const Drone& drone) {
-    out.put(drone.filter.nearest < 0 ? kNone : as_f32(drone.filter.nearest_distance_m));
-  });
-  array_of(out, frame, [&](const Drone& drone) { put_velocity(out, drone.velocity, scale); });
-  array_of(out, frame, [&](const Drone& drone) { put_velocity(out, drone.u_nom, scale); });
-  array_of(out, frame, [&](const Drone& drone) { put_velocity(out, drone.order.velocity, scale); });
-  array_of(out, frame, [&](const Drone& drone) { out.put(as_age(drone.age_s, 1e-3)); });
-  array_of(out, frame, [&](const Drone& drone) { out.put(as_age(drone.link_age_s, 1e-3)); });
-  array_of(out, frame, [&](const Drone& drone) { out.put(as_battery(drone.battery)); });
-  array_of(out, frame, [&](const Drone& drone) { out.put(static_cast<std::uint8_t>(drone.mode)); });
-  array_of(out, frame, [&](const Drone& drone) { out.put(static_cast<std::uint8_t>(drone.activity)); });
-  array_of(out, frame, [&](const Drone& drone) { out.put(static_cast<std::uint8_t>(drone.order.action)); });
-  array_of(out, frame, [&](const Drone& drone) { out.put(flags_of(drone)); });
-}
+  [[nodiscard]] std::size_t holding_rows() const {
+    std::size_t rows = 0;
+    for (const std::size_t i : shown_.drones()) rows += static_cast<std::size_t>(drones_[i].filter.holding_count);
+    return rows;
+  }
 
-void put_holding(FrameWriter& out, const runtime::LiveFrame& frame) {
-  out.align();
-  for (std::size_t i = 0; i < frame.snapshot.drones.size(); ++i) {
-    safety::FilterReport report = frame.snapshot.drones[i].filter;
-    const auto holding = std::span(report.holding).first(static_cast<std::size_t>(report.holding_count));
-    std::ranges::stable_sort(holding, {}, &safety::HoldingRow::distance_m);  // the filter has them as it met them
-    for (const safety::HoldingRow& row : holding) {
-      out.put(as_u32(i));
-      out.put(static_cast<std::uint32_t>(row.kind));
-      out.put(static_cast<std::uint32_t>(row.index));
-      out.put(as_f32(row.distance_m));
+  void put(FrameWriter& out, double scale) const {
+    using Drone = swarm::DroneSnapshot;
+    array_of(out, [&](const Drone& drone) {
+      out.put(was_seen(drone) ? as_f32(drone.position.x()) : kNone);
+      out.put(was_seen(drone) ? as_f32(drone.position.y()) : kNone);
+    });
+    array_of(out, [&](const Drone& drone) { out.put(as_f32(drone.height_m)); });
+    array_of(out, [&](const Drone& drone) {
+      out.put(drone.filter.nearest < 0 ? kNone : as_f32(drone.filter.nearest_distance_m));
+    });
+    array_of(out, [&](const Drone& drone) { put_velocity(out, drone.velocity, scale); });
+    array_of(out, [&](const Drone& drone) { put_velocity(out, drone.u_nom, scale); });
+    array_of(out, [&](const Drone& drone) { put_velocity(out, drone.order.velocity, scale); });
+    array_of(out, [&](const Drone& drone) { out.put(as_age(drone.age_s, 1e-3)); });
+    array_of(out, [&](const Drone& drone) { out.put(as_age(drone.link_age_s, 1e-3)); });
+    array_of(out, [&](const Drone& drone) { out.put(as_battery(drone.battery)); });
+    array_of(out, [&](const Drone& drone) { out.put(static_cast<std::uint8_t>(drone.mode)); });
+    array_of(out, [&](const Drone& drone) { out.put(static_cast<std::uint8_t>(drone.activity)); });
+    array_of(out, [&](const Drone& drone) { out.put(static_cast<std::uint8_t>(drone.order.action)); });
+    array_of(out, [&](const Drone& drone) { out.put(flags_of(drone)); });
+    put_holding(out);
+  }
+
+ private:
+  template <typename Write>
+  void array_of(FrameWriter& out, const Write& write) const {
+    out.align();
+    for (const std::size_t i : shown_.drones()) write(drones_[i]);
+  }
+
+  void put_holding(FrameWriter& out) const {
+    out.align();
+    for (const std::size_t i : shown_.drones()) {
+      safety::FilterReport report = drones_[i].filter;
+      const auto holding = std::span(report.holding).first(static_cast<std::size_t>(report.holding_count));
+      std::ranges::stable_sort(holding, {}, &safety::HoldingRow::distance_m);  // the filter has them as it met them
+      for (const safety::HoldingRow& row : holding) {
+        out.put(shown_.place_of(i));
+        out.put(static_cast<std::uint32_t>(row.kind));
+        out.put(row.kind == safety::RowKind::kNeighbour ? shown_.place_of(static_cast<std::size_t>(row.index))
+                                                        : static_cast<std::uint32_t>(row.index));
+        out.put(as_f32(row.distance_m));
+      }
     }
   }
-}
+
+  const std::vector<swarm::DroneSnapshot>& drones_;
+  const ShownDrones& shown_;
+};
 
 }  // namespace
 
 std::string snapshot_frame(const runtime::LiveFrame& frame, const runtime::ClockState& clock,
-                           const SnapshotContext& context) {
+                           const SnapshotContext& context, const ShownDrones& shown) {
   const swarm::Snapshot& snapshot = frame.snapshot;
   const double scale = kMostOfLimit * context.speed_limit_m_s / 32767.0;
   const unsigned flags = (clock.is_paused ? 1U : 0U) | (snapshot.fallback ? 2U : 0U) | (snapshot.has_metric ? 4U : 0U);
-  const std::size_t rows = holding_rows(frame);
+  const DroneArrays arrays(snapshot, shown);
+  const std::size_t rows = arrays.holding_rows();
   const double pair_m = runtime::least_airborne_pair_m(snapshot);
   constexpr std::uint16_t kHeader = 104;
-  FrameWriter out(Kind::kSnapshot, static_cast<std::uint8_t>(flags), kHeader, context.epoch,
-                  as_u32(snapshot.drones.size()));
-  out.reserve(kHeader + 40 * snapshot.drones.size() + 16 * rows + 64);
+  FrameWriter out(Kind::kSnapshot, static_cast<std::uint8_t>(flags), kHeader, context.epoch, as_u32(shown.size()));
+  out.reserve(kHeader + 40 * shown.size() + 16 * rows + 64);
   out.put(static_cast<double>(snapshot.tick));
   out.put(snapshot.time_s);
   out.put(context.wall_ms);
@@ -137,8 +148,7 @@ std::string snapshot_frame(const runtime::LiveFrame& frame, const runtime::Clock
   out.put(as_u32(rows));
   out.put(context.lost_ticks);
   out.put(context.steady_ms);
-  put_snapshot_arrays(out, frame, scale);
-  put_holding(out, frame);
+  arrays.put(out, scale);
   return out.take();
 }
 

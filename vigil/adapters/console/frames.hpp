@@ -8,6 +8,7 @@
 #include <string_view>
 #include <vector>
 
+#include "vigil/adapters/console/shown_drones.hpp"
 #include "vigil/core/ergodic/basis.hpp"
 #include "vigil/core/field/density.hpp"
 #include "vigil/core/field/seen_map.hpp"
@@ -28,8 +29,9 @@ struct SnapshotContext {
   std::uint32_t lost_ticks = 0;
 };
 
+/// Arrays are of the shown drones, figures of all.
 [[nodiscard]] std::string snapshot_frame(const runtime::LiveFrame& frame, const runtime::ClockState& clock,
-                                         const SnapshotContext& context);
+                                         const SnapshotContext& context, const ShownDrones& shown);
 
 struct DensityContext {
   std::uint32_t epoch = 0;

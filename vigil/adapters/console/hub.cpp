@@ -20,6 +20,9 @@ constexpr double kMessagesASecond = 50.0;
 constexpr double kMessagesAtOnce = 200.0;
 /// A client that was refused so often for its rate means no good.
 constexpr std::size_t kMostRefusedForRate = 2000;
+/// Of single drones, that clients are told; more would fill what a client may leave unread.
+constexpr double kSwarmEventsASecond = 200.0;
+constexpr double kSwarmEventsAtOnce = 2000.0;
 /// No confirmation is longer.
 constexpr std::size_t kMostConfirmBytes = 128;
 /// Commands of all clients that wait for an answer.
@@ -65,7 +68,8 @@ std::string name_or(const std::string& name, std::uint32_t client) {
 
 }  // namespace
 
-Hub::Hub(HubSetup setup, HubLinks links) : setup_(std::move(setup)), links_(std::move(links)) {}
+Hub::Hub(HubSetup setup, HubLinks links)
+    : setup_(std::move(setup)), links_(std::move(links)), swarm_events_(kSwarmEventsASecond, kSwarmEventsAtOnce) {}
 
 std::optional<Role> Hub::role_for(std::string_view token) const {
   return setup_.tokens ? setup_.tokens->role_for(token) : std::optional(Role::kSafetyPilot);

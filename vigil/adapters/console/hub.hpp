@@ -18,6 +18,7 @@
 #include "vigil/adapters/console/desk.hpp"
 #include "vigil/adapters/console/rate_limit.hpp"
 #include "vigil/adapters/console/server_messages.hpp"
+#include "vigil/adapters/console/shown_drones.hpp"
 #include "vigil/adapters/console/trail_ring.hpp"
 
 namespace vigil::console {
@@ -190,6 +191,7 @@ class Hub {
   void answer_pending(std::chrono::nanoseconds now);
   void log(ConsoleEvent event);
   void keep_event(Json event);
+  void tell_of_untold();
   void send_events();
   void send_snapshot(std::chrono::nanoseconds now);
   void send_status();
@@ -226,6 +228,7 @@ class Hub {
   SharedBytes coverage_;
   SharedBytes age_;
   std::vector<runtime::AreaState> areas_;
+  std::optional<ShownDrones> shown_;
   std::optional<TrailRing> trails_;
   std::optional<runtime::FlightHistory> history_;
   std::optional<runtime::LiveFrame> frame_;
@@ -237,6 +240,8 @@ class Hub {
   bool has_told_trouble_ = false;
   std::deque<Json> events_;  ///< the newest
   std::vector<Json> new_events_;
+  RateLimit swarm_events_;           ///< of those that clients are told
+  std::uint64_t untold_events_ = 0;  ///< since they were last told how many there were
   std::uint64_t next_event_ = 1;
   std::chrono::nanoseconds next_snapshot_{0};
   std::chrono::nanoseconds next_status_{0};

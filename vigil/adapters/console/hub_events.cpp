@@ -29,13 +29,17 @@ bool is_logged_by_the_flight(std::string_view what) {
 }  // namespace
 
 void Hub::log(ConsoleEvent event) {
-  event.number = next_event_++;
   if (flight_) event.epoch = flight_->epoch();
   event.wall_ms = links_.wall_ms();
   if (event.tick == 0 && frame_) event.tick = frame_->snapshot.tick;
   if (event.time_s == 0.0 && frame_) event.time_s = frame_->snapshot.time_s;
   if (flight_ && flight_->recorder() != nullptr && event.source != "mission")
     flight_->recorder()->log({event.time_s, event.source, event.what, event.drone, event.words.text});
+  if (event.source == "swarm" && !swarm_events_.admit(links_.now())) {
+    ++untold_events_;
+    return;
+  }
+  event.number = next_event_++;
   keep_event(event_json(event));
 }
 
@@ -45,7 +49,19 @@ void Hub::keep_event(Json event) {
   if (events_.size() > kKeptEvents) events_.pop_front();
 }
 
+/// A hundred thousand drones that land are more news than anybody reads, or a connection takes.
+void Hub::tell_of_untold() {
+  if (untold_events_ == 0 || !swarm_events_.admit(links_.now())) return;
+  log({.source = "program",
+       .what = "untold",
+       .words = {Severity::kWarning,
+                 fmt::format("{} more events of single drones came too fast to be told", untold_events_), "",
+                 "look at the fleet for how each drone is; a recording has all events"}});
+  untold_events_ = 0;
+}
+
 void Hub::send_events() {
+  tell_of_untold();
   if (new_events_.empty()) return;
   // A swarm that drops out must not make one huge message, which on a slow way is read when all of it has come.
   constexpr std::size_t kMostAtOnce = 32;

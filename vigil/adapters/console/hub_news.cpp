@@ -26,6 +26,15 @@ SharedBytes shared(std::string bytes) { return std::make_shared<const std::strin
 
 double milliseconds(std::chrono::nanoseconds time) { return std::chrono::duration<double, std::milli>(time).count(); }
 
+/// Until the next snapshot: the more drones there are, the larger it is, and the longer it takes to make it.
+std::chrono::nanoseconds pause_after(std::size_t bytes, std::chrono::nanoseconds made_in) {
+  constexpr double kMostBytesPerS = 4e6;
+  constexpr int kShareOfTime = 4;  // at most a quarter: the same thread answers
+  const std::chrono::duration<double> by_bytes(static_cast<double>(bytes) / kMostBytesPerS);
+  return std::max({std::chrono::nanoseconds(kSnapshotEvery),
+                   std::chrono::duration_cast<std::chrono::nanoseconds>(by_bytes), kShareOfTime * made_in});
+}
+
 /// "go to cf1, cf2" for "go_to"; "land_all" names its drones itself.
 std::string order_words(std::string what, const std::string& drones) {
   const bool names_them = drones.empty() || what == "land_all";
@@ -90,6 +99,7 @@ void Hub::show_flight(std::shared_ptr<runtime::ShownFlight> flight, SharedBytes 
   frame_.emplace(flight_->mission().drones.size());
   frame_version_ = 0;
   clock_version_ = 0;
+  shown_.emplace(flight_->mission().drones.size());
   trails_.emplace(flight_->mission().drones.size());
   history_.emplace(flight_->mission().drones.size());
   drone_index_.clear();
@@ -279,7 +289,9 @@ void Hub::send_snapshot(std::chrono::nanoseconds now) {
       .speed_limit_m_s = flight_->mission().control.speed_limit_m_s,
       .steady_ms = steady_ms() - milliseconds(age),
       .lost_ticks = recorder == nullptr ? 0 : static_cast<std::uint32_t>(recorder->lost_ticks())};
-  show_to_all(ClientLine::Latest::kSnapshot, shared(snapshot_frame(*frame_, clock_, context)));
+  const SharedBytes frame = shared(snapshot_frame(*frame_, clock_, context, *shown_));
+  show_to_all(ClientLine::Latest::kSnapshot, frame);
+  next_snapshot_ = now + pause_after(frame->size(), links_.now() - now);
 }
 
 void Hub::list_waiting(StatusContext& context) const {

@@ -93,6 +93,7 @@ ordered_json display_json(const runtime::Mission& mission, const SpeedRange& spe
             {"length_y_m", mission.field.size_m.y()},
             {"origin_m", in_json(mission.field.origin_m)},
             {"yaw_rad", mission.field.yaw_rad}}},
+          {"drones", mission.drones.size()},
           {"dt_s", runtime::tick_s(mission)},
           {"separation_m", barrier.separation_m},
           {"contact_distance_m", barrier.contact_distance_m},

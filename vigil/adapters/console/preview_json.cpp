@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "vigil/adapters/console/shown_drones.hpp"
+
 namespace vigil::console {
 namespace {
 
@@ -42,12 +44,15 @@ Json outlook_json(const runtime::Outlook& outlook) {
           {"tick_s", outlook.tick_s}};
 }
 
-/// World frame, x, y of each drone's places one after the other; null for a drone that was never seen.
+/// World frame, x, y of each shown drone's places one after the other; null for a drone that was never seen.
 Json ghosts_json(const runtime::Outlook& outlook, const field::WorldFrame& frame) {
   Json drones = Json::array();
-  for (std::size_t first = 0; first < outlook.ghosts.size(); first += outlook.ghost_points) {
+  const std::size_t points = outlook.ghost_points;
+  const ShownDrones shown(points == 0 ? 0 : outlook.ghosts.size() / points);
+  for (const std::size_t drone : shown.drones()) {
+    const std::size_t first = drone * points;
     Json places = Json::array();
-    for (std::size_t n = first; n < first + outlook.ghost_points; ++n) {
+    for (std::size_t n = first; n < first + points; ++n) {
       const Vec2 place = frame.point_to_world(outlook.ghosts[n]);
       places.push_back(rounded(place.x()));
       places.push_back(rounded(place.y()));

@@ -94,7 +94,7 @@ Json snapshot_case() {
                                 .steady_ms = 2048.25,
                                 .lost_ticks = 9};
   constexpr double kScale = 4.0 * 0.5 / 32767.0;
-  return frame_case("two drones, one never seen", "snapshot", snapshot_frame(flying(), clock, context),
+  return frame_case("two drones, one never seen", "snapshot", snapshot_frame(flying(), clock, context, ShownDrones(2)),
                     {{"paused", true},
                      {"fallback", false},
                      {"has_metric", true},

@@ -5,6 +5,7 @@
 
 #include "vigil/adapters/console/edit_json.hpp"
 #include "vigil/adapters/console/mission_json.hpp"
+#include "vigil/adapters/console/shown_drones.hpp"
 #include "vigil/runtime/replay_loop.hpp"
 
 namespace vigil::console {
@@ -36,11 +37,12 @@ Json area_json(const runtime::AreaState& area) {
 /// Who is away, or is to go, and until when: a line each.
 Json plan_json(std::span<const swarm::DroneSnapshot> drones) {
   Json plan = Json::array();
-  for (std::size_t i = 0; i < std::min(drones.size(), kMostPlanned); ++i) {
-    const swarm::DroneSnapshot& drone = drones[i];
+  const ShownDrones shown(drones.size());
+  for (std::size_t place = 0; place < std::min(shown.size(), kMostPlanned); ++place) {
+    const swarm::DroneSnapshot& drone = drones[shown.drones()[place]];
     if (!std::isfinite(drone.leaves_in_s) && drone.pad < 0) continue;
     const double leaves_in_s = drone.pad >= 0 ? 0.0 : drone.leaves_in_s;
-    plan.push_back({{"drone", i},
+    plan.push_back({{"drone", place},
                     {"pad", drone.pad >= 0 ? Json(drone.pad) : Json(nullptr)},
                     {"leaves_in_s", leaves_in_s},
                     {"back_in_s", finite_or_null(leaves_in_s + drone.away_for_s)}});
@@ -48,9 +50,17 @@ Json plan_json(std::span<const swarm::DroneSnapshot> drones) {
   return plan;
 }
 
+runtime::Mission as_shown(const runtime::Mission& mission) {
+  runtime::Mission shown = mission;
+  shown.drones.clear();
+  const ShownDrones chosen(mission.drones.size());
+  for (const std::size_t drone : chosen.drones()) shown.drones.push_back(mission.drones[drone]);
+  return shown;
+}
+
 Json mission_message(const runtime::Mission& mission, std::uint32_t epoch, std::string_view fleet,
                      const SpeedRange& speeds, Json recording) {
-  Json file = mission_json(mission);
+  Json file = mission_json(as_shown(mission));
   file.erase("targets");
   file.erase("no_fly");
   return {{"type", "mission"},

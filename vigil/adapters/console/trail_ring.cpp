@@ -19,14 +19,16 @@ std::size_t points_for(std::size_t drones) {
 }  // namespace
 
 TrailRing::TrailRing(std::size_t drones)
-    : drones_(drones),
-      points_(points_for(drones)),
+    : shown_(drones),
+      drones_(shown_.size()),
+      points_(points_for(drones_)),
       spacing_s_(kKeptS / static_cast<double>(points_)),
-      xy_(2 * drones * points_) {}
+      xy_(2 * drones_ * points_) {}
 
-TrailRing::Moment TrailRing::moment_of(const swarm::Snapshot& snapshot) {
+TrailRing::Moment TrailRing::moment_of(const swarm::Snapshot& snapshot) const {
   Moment moment{snapshot.time_s, {}, {}};
-  for (const swarm::DroneSnapshot& drone : snapshot.drones) {
+  for (const std::size_t i : shown_.drones()) {
+    const swarm::DroneSnapshot& drone = snapshot.drones[i];
     const bool is_known = std::isfinite(drone.age_s);
     for (const double place : {drone.position.x(), drone.position.y()})
       moment.places.push_back(is_known ? place : std::numeric_limits<double>::quiet_NaN());

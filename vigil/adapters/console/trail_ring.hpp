@@ -5,16 +5,19 @@
 #include <vector>
 
 #include "vigil/adapters/console/frames.hpp"
+#include "vigil/adapters/console/shown_drones.hpp"
 #include "vigil/swarm/snapshot.hpp"
 
 namespace vigil::console {
 
-/// Where every drone has been lately, for whoever comes later. Bounded, whatever the number of drones. One thread.
+/// Where every drone that is shown has been lately, for whoever comes later. Bounded, whatever the number of drones.
+/// One thread.
 class TrailRing {
  public:
   static constexpr double kKeptS = 120.0;  ///< about so much mission time is kept
 
   /// Keeps up to about two minutes of mission time, and fewer points a drone the more drones there are.
+  /// `drones`: how many there are in all.
   explicit TrailRing(std::size_t drones);
 
   /// Takes in where everybody is now. A point is kept of every spacing_s: where the clock runs so fast that several are
@@ -30,10 +33,11 @@ class TrailRing {
     std::vector<double> places;
     std::vector<double> velocities;
   };
-  [[nodiscard]] static Moment moment_of(const swarm::Snapshot& snapshot);
+  [[nodiscard]] Moment moment_of(const swarm::Snapshot& snapshot) const;
   void add_row(const Moment& from, const Moment& to, double time_s);
 
-  std::size_t drones_;
+  ShownDrones shown_;
+  std::size_t drones_;  ///< that are shown
   std::size_t points_;
   double spacing_s_;
   std::vector<float> xy_;  ///< a ring of rows, one a moment, with all drones

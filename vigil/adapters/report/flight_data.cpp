@@ -2,12 +2,12 @@
 
 #include <algorithm>
 #include <iterator>
-#include <random>
 #include <utility>
 
 #include <fmt/format.h>
 
 #include "vigil/adapters/report/report_error.hpp"
+#include "vigil/runtime/chosen_evenly.hpp"
 #include "vigil/runtime/mission_setup.hpp"
 
 namespace vigil::report {
@@ -95,20 +95,6 @@ std::string FlightData::describe(const ActiveChange& change) const {
   return fmt::format("{} drones back", change.returned.size());
 }
 
-std::vector<std::size_t> chosen_evenly(std::size_t count, std::size_t most) {
-  const std::size_t stretches = std::min(count, most);
-  // One of each of equal stretches, anywhere in it: always the first would be one column of a grid whose rows are as
-  // long as a stretch, and any regular step shows as a pattern in some grid.
-  std::minstd_rand random;
-  std::vector<std::size_t> chosen;
-  for (std::size_t k = 0; k < stretches; ++k) {
-    const std::size_t first = count * k / stretches;
-    const std::size_t length = count * (k + 1) / stretches - first;
-    chosen.push_back(first + random() % length);
-  }
-  return chosen;
-}
-
 FlightData prepare(const RecordedFlight& flight, const runtime::Mission& mission) {
   check_drones(flight, mission);
   FlightData data{flight, mission, runtime::monitored_field(mission), false, {}, {}, {}, {}, {}};
@@ -123,7 +109,7 @@ FlightData prepare(const RecordedFlight& flight, const runtime::Mission& mission
   for (const Vec2& u : flight.rows.command_m_s) data.commands.push_back(frame.vector_to_field(u));
   data.steps_s = steps_of(flight.ticks.time_s, mission.control.rate_hz);
   data.changes = changes_of(flight);
-  data.drawn = chosen_evenly(data.drones(), kMostDrawn);
+  data.drawn = runtime::chosen_evenly(data.drones(), kMostDrawn);
   return data;
 }
 

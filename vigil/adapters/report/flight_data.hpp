@@ -29,7 +29,7 @@ struct FlightData {
   std::vector<Vec2> commands;   ///< by RecordedFlight::row()
   std::vector<double> steps_s;  ///< for how long each kept tick stands
   std::vector<ActiveChange> changes;
-  std::vector<std::size_t> drawn;  ///< the drones that maps show, ascending: all of them, or chosen_evenly()
+  std::vector<std::size_t> drawn;  ///< the drones that maps show, ascending: all of them, or kMostDrawn, evenly chosen
 
   [[nodiscard]] std::size_t ticks() const { return flight.tick_count(); }
   [[nodiscard]] std::size_t drones() const { return flight.drones.size(); }
@@ -47,10 +47,6 @@ struct FlightData {
 
 /// More than this, and a map shows colour in place of drones, and takes minutes to draw.
 inline constexpr std::size_t kMostDrawn = 400;
-
-/// At most `most` of the numbers below `count`, ascending, spread over all of them: also over both directions of a grid
-/// that was numbered row by row, whatever its width. Always the same ones.
-[[nodiscard]] std::vector<std::size_t> chosen_evenly(std::size_t count, std::size_t most);
 
 /// ReportError where the flight has no tick or its drones are not the mission's.
 [[nodiscard]] FlightData prepare(const runtime::RecordedFlight& flight, const runtime::Mission& mission);

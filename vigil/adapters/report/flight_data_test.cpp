@@ -1,8 +1,6 @@
 #include "vigil/adapters/report/flight_data.hpp"
 
 #include <algorithm>
-#include <array>
-#include <functional>
 #include <limits>
 #include <random>
 
@@ -86,29 +84,6 @@ TEST(Distances, Neighbours_that_are_looked_for_in_a_grid_are_the_nearest_of_all)
   EXPECT_EQ(closest.distance_m, least);
   EXPECT_EQ(closest.tick, 6U);
   EXPECT_EQ(distance_m(data, 6, closest.active, closest.lost), least);
-}
-
-TEST(ChosenEvenly, Few_are_all_chosen) {
-  EXPECT_EQ(chosen_evenly(3, 400), (std::vector<std::size_t>{0, 1, 2}));
-  EXPECT_TRUE(chosen_evenly(0, 400).empty());
-}
-
-TEST(ChosenEvenly, Each_quarter_of_a_grid_has_its_quarter_of_the_chosen_however_wide_it_is) {
-  constexpr std::size_t kCount = 100'000;
-  for (const std::size_t columns : {100U, 250U, 316U, 317U, 400U, 500U, 1000U}) {
-    const std::vector<std::size_t> chosen = chosen_evenly(kCount, kMostDrawn);
-    ASSERT_EQ(chosen.size(), kMostDrawn);
-    EXPECT_TRUE(std::adjacent_find(chosen.begin(), chosen.end(), std::greater_equal<>()) == chosen.end());
-    EXPECT_LT(chosen.back(), kCount);
-    std::array<std::size_t, 4> along_x{};
-    std::array<std::size_t, 4> along_y{};
-    for (const std::size_t number : chosen) {
-      ++along_x[4 * (number % columns) / columns];
-      ++along_y[4 * number / kCount];
-    }
-    for (const std::size_t share : along_x) EXPECT_NEAR(static_cast<double>(share), 100.0, 25.0) << columns;
-    for (const std::size_t share : along_y) EXPECT_NEAR(static_cast<double>(share), 100.0, 1.0) << columns;
-  }
 }
 
 }  // namespace

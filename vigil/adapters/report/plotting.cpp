@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "vigil/adapters/report/gnuplot.hpp"
+#include "vigil/runtime/chosen_evenly.hpp"
 #include "vigil/runtime/mission_setup.hpp"
 
 namespace vigil::report {
@@ -205,7 +206,8 @@ std::vector<std::size_t> shown_inactive(const FlightData& data, std::size_t tick
   for (std::size_t i = 0; i < data.drones(); ++i)
     if (!data.flight.is_active(tick, i)) inactive.push_back(i);
   std::vector<std::size_t> shown;
-  for (const std::size_t number : chosen_evenly(inactive.size(), kMostDrawn)) shown.push_back(inactive[number]);
+  for (const std::size_t number : runtime::chosen_evenly(inactive.size(), kMostDrawn))
+    shown.push_back(inactive[number]);
   return shown;
 }
 

@@ -88,9 +88,11 @@ TEST(WriteReport, A_crowd_is_shown_by_its_distribution) {
 
 TEST(WriteReport, Of_very_many_drones_some_are_drawn_and_the_page_says_so) {
   Report report({.drones = 2500, .duration_s = 0.4});
-  for (std::size_t i = 0; i < 1000; ++i)
-    report.flight.rows.activity[report.flight.row(0, i)] = swarm::Activity::kGrounded;
-  report.flight.ticks.active[0] = 1500;
+  for (std::size_t tick = 0; tick < report.flight.ticks.active.size(); ++tick) {
+    report.flight.ticks.active[tick] = 1500;
+    for (std::size_t i = 0; i < 1000; ++i)
+      report.flight.rows.activity[report.flight.row(tick, i)] = swarm::Activity::kGrounded;
+  }
   const std::string page = report.write();
   EXPECT_LT(series_of(report.folder.path(), "fig5_density"), kMostDrawn + 20U);
   EXPECT_LT(page.size(), 4U << 20U);

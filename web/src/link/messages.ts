@@ -49,6 +49,7 @@ const helloShape = record({
 
 const displayShape = record({
   field: record({ length_x_m: finite, length_y_m: finite, origin_m: point, yaw_rad: finite }),
+  drones: maybe(finite),
   dt_s: finite,
   separation_m: finite,
   wall_distance_m: finite,

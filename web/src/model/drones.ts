@@ -131,7 +131,7 @@ export function holderName(
   ids: readonly string[],
   polygons: readonly { readonly name: string; readonly outline_m: readonly unknown[] }[],
 ): string {
-  if (row.kind === 'drone') return ids[row.index] ?? `drone ${row.index}`;
+  if (row.kind === 'drone') return ids[row.index] ?? 'a drone not shown';
   if (row.kind === 'wall') return kWalls[row.index] ?? 'wall';
   const polygon = polygonOfEdge(row.index, polygons);
   return polygon ? `no-fly ${polygon.name}` : 'no-fly';

@@ -91,7 +91,7 @@ export function FleetTable() {
         <header>
           <h2>Fleet</h2>
           <span class="dim" data-testid="active-count">
-            {snapshot ? `${snapshot.active} of ${snapshot.n} active` : '–'}
+            {snapshot ? `${snapshot.active} of ${session.fleetSize.value} active` : '–'}
             {selected.size > 0 && `, ${selected.size} selected`}
           </span>
           <select

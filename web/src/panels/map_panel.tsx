@@ -37,6 +37,7 @@ export function MapPanel() {
       </p>
       <div class="map-corner upper-left">
         <Legend />
+        <HowMany />
         <SwarmHealth />
       </div>
       <div class="map-corner upper-right">
@@ -107,6 +108,17 @@ function LayersMenu() {
       )}
     </div>
   );
+}
+
+/** Of very many drones the program shows some. */
+function HowMany() {
+  const { session } = useApp();
+  const [shown, all] = [session.droneIds.value.length, session.fleetSize.value];
+  return shown < all ? (
+    <div class="legend">
+      {shown} of {all} drones are shown; densities, figures and LAND ALL are of all
+    </div>
+  ) : null;
 }
 
 const css = (colour: readonly number[]): string => `rgb(${colour.map((part) => Math.round(255 * part)).join(' ')})`;

@@ -125,7 +125,7 @@ function WhatFlies() {
       </span>
       <div class="brand">
         <strong title={mission?.mission.name}>{mission?.mission.name ?? 'vigil'}</strong>
-        <span>{mission ? `${mission.mission.drones.length} drones` : 'connecting'}</span>
+        <span>{mission ? `${session.fleetSize.value} drones` : 'connecting'}</span>
       </div>
     </div>
   );

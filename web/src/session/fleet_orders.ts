@@ -38,7 +38,7 @@ export class FleetOrders {
   }
 
   to(order: Order, drones: readonly string[] | 'all'): void {
-    const areAll = drones === 'all' || drones.length === this.session.droneIds.value.length;
+    const areAll = drones === 'all' || drones.length === this.session.fleetSize.value;
     const who = areAll ? 'all drones' : drones.length > 3 ? `${drones.length} drones` : drones.join(', ');
     // Who was chosen is named, also where it is everybody: to resume "all" leaves those that are marked failed.
     const command = this.session.forThisFlight({ type: order, drones });

@@ -50,6 +50,8 @@ export class Session {
     return field ? new FieldFrame(field.origin_m, field.yaw_rad, [field.length_x_m, field.length_y_m]) : null;
   });
   readonly droneIds = computed<readonly string[]>(() => this.mission.value?.mission.drones.map((d) => d.id) ?? []);
+  /** How many drones there are; of very many only some are shown, which `droneIds` names. */
+  readonly fleetSize = computed(() => this.mission.value?.display.drones ?? this.droneIds.value.length);
   /** What is committed, and what it would be with the staged edits. */
   readonly committed = computed<Targets>(() => this.targets.value ?? kNoTargets);
   readonly draft = computed<Targets>(() => draftOf(this.committed.value, this.staging.value) ?? this.committed.value);
