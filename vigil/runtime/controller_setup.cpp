@@ -8,12 +8,14 @@
 namespace vigil::runtime {
 namespace {
 
-swarm::HealthParameters health_parameters(const HealthSection& health) {
+swarm::HealthParameters health_parameters(const Mission& mission) {
+  const HealthSection& health = mission.health;
   return {.tracking_timeout_s = health.tracking_timeout_s,
           .link_timeout_s = health.link_timeout_s,
           .battery_reserve = health.battery_reserve,
           .recovery_s = health.recovery_s,
-          .landed_height_m = health.landed_height_m};
+          .landed_height_m = health.landed_height_m,
+          .landing_s = mission.simulation.vehicle.landing_s};
 }
 
 /// What a full battery is worth, as far as the mission says.
@@ -62,7 +64,7 @@ swarm::SwarmParameters swarm_parameters(const Mission& mission, swarm::Intent fi
   parameters.command_delay_s = command_delay_s(mission);
   parameters.observation_delay_s = observation_delay_s(mission);
   parameters.only_active_are_obstacles = mission.safety.obstacles == Obstacles::kActiveOnly;
-  parameters.health = health_parameters(mission.health);
+  parameters.health = health_parameters(mission);
   parameters.faults = fault_parameters(mission);
   parameters.recharge = recharge_parameters(mission);
   parameters.first_intent = first_intent;

@@ -16,12 +16,13 @@ namespace vigil::runtime {
 /// where it has one, else the activity's. Empty for every other event.
 [[nodiscard]] std::string_view alarm_of(const swarm::Event& event);
 
-/// An event of the mission file that befalls a drone, and what came of it.
+/// An event of the mission file that befalls a drone or a station, and what came of it.
 struct Detection {
   double at_s = 0.0;
   std::string befell;                 ///< the event's word
-  std::string drone;                  ///< as in the event: an id, or "all"
-  std::string noticed_as;             ///< alarm_of() the first alarm; empty: it was not noticed
+  std::string drone;                  ///< as in the event: an id, or "all"; empty where it befell a station
+  std::string station{};              ///< its name, else empty
+  std::string noticed_as{};           ///< alarm_of() the first alarm; empty: it was not noticed
   std::optional<double> noticed_s{};  ///< after at_s; none: it was not noticed
 };
 
@@ -49,11 +50,13 @@ class FaultTally {
   struct Happening {
     Detection detection;
     std::vector<std::size_t> drones;  ///< empty: all of them
+    std::optional<std::size_t> station;
     double end_s = 0.0;
     [[nodiscard]] bool concerns(std::size_t drone) const;
   };
 
   void take(const swarm::Event& event, std::string_view word, double now_s);
+  void take_station(const swarm::Event& event, double now_s);
   void count(std::string_view word);
 
   std::vector<Happening> happenings_;  ///< in the order of time

@@ -72,6 +72,33 @@ TEST(FaultTally, Where_the_tracker_exchanges_drones_by_itself_what_looks_like_it
   EXPECT_EQ(tally.false_alarms(), 1U);
 }
 
+TEST(FaultTally, A_station_that_fails_is_noticed_by_what_the_swarm_says_of_it_and_explains_no_accusation) {
+  Mission mission = drifting_mission();
+  mission.stations.resize(2);
+  mission.stations[0].name = "west";
+  mission.stations[1].name = "east";
+  EventEntry fails;
+  fails.at_s = 5.0;
+  fails.what = EventKind::kFailStation;
+  fails.station = "east";
+  mission.simulation.events = {fails};
+  FaultTally tally(mission);
+  alarm(tally, 10.0, 0, Activity::kNotFollowing, Fault::kNotFollowing);
+  EXPECT_EQ(tally.false_alarms(), 1U);
+  ASSERT_EQ(tally.detections().size(), 1U);
+  EXPECT_FALSE(tally.detections()[0].noticed_s);
+  for (const std::uint32_t station : {0U, 1U}) {
+    swarm::Snapshot snapshot(2);
+    snapshot.time_s = 20.0 + station;
+    snapshot.events = {{.kind = swarm::EventKind::kStationFailed, .station = station}};
+    tally.add(snapshot);
+  }
+  const Detection found = tally.detections()[0];
+  EXPECT_EQ(found.station, "east");
+  EXPECT_EQ(found.noticed_as, "station_failed");
+  EXPECT_EQ(found.noticed_s, 16.0);
+}
+
 TEST(FaultTally, What_befell_before_the_part_that_is_looked_at_is_left_out) {
   FaultTally tally(drifting_mission());
   tally.begin_at(22.0);

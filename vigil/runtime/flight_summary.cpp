@@ -105,11 +105,11 @@ void add_goals(nlohmann::ordered_json& json, const FlightSummary& summary) {
 
 nlohmann::ordered_json to_json(const Detection& found) {
   using Json = nlohmann::ordered_json;
-  return {{"at_s", found.at_s},
-          {"befell", found.befell},
-          {"drone", found.drone},
-          {"noticed_as", found.noticed_s ? Json(found.noticed_as) : Json(nullptr)},
-          {"noticed_s", found.noticed_s ? Json(*found.noticed_s) : Json(nullptr)}};
+  Json json = {{"at_s", found.at_s}, {"befell", found.befell}, {"drone", found.drone}};
+  if (!found.station.empty()) json["station"] = found.station;
+  json["noticed_as"] = found.noticed_s ? Json(found.noticed_as) : Json(nullptr);
+  json["noticed_s"] = found.noticed_s ? Json(*found.noticed_s) : Json(nullptr);
+  return json;
 }
 
 }  // namespace

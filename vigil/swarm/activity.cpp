@@ -27,10 +27,18 @@ bool is_unbelievable(Fault fault) {
   return fault == Fault::kFrozen || fault == Fault::kJumped || fault == Fault::kSwapped || fault == Fault::kDisagreeing;
 }
 
-/// Below it a drone lands where it is. Who is on its way to be charged may use half of the reserve for that: it was
+/// A share of full. Who is on its way to be charged may use half of the reserve for that: it was
 /// sent in time to get there with all of it, by what was known then.
 double least_battery(const DroneMemory& memory, const HealthParameters& health) {
   return memory.intent == Intent::kRecharge ? 0.5 * health.battery_reserve : health.battery_reserve;
+}
+
+/// Down to its reserve, or to what a landing needs where that is more. False where neither is known.
+bool has_to_land(const DroneMemory& memory, const HealthParameters& health) {
+  constexpr double kToBeSure = 1.5;  // of a report that is wrong by some percent, and a landing in wind
+  const std::optional<TimeLeft> left = memory.energy.time_to(0.0);
+  if (left && left->s < kToBeSure * health.landing_s) return true;
+  return memory.last_good.battery < least_battery(memory, health);  // false for NaN: not reported
 }
 
 /// What is wrong with the drone itself, whatever the operator wishes; kActive where nothing is.
@@ -44,7 +52,7 @@ Activity fault_of(const DroneMemory& memory, const HealthParameters& health) {
   if (seen.age_s > health.tracking_timeout_s || is_unbelievable(memory.fault)) return Activity::kTrackingLost;
   if (memory.fault == Fault::kOutside) return Activity::kOutside;
   if (memory.fault == Fault::kNotFollowing) return Activity::kNotFollowing;
-  if (seen.battery < least_battery(memory, health)) return Activity::kBatteryLow;  // false for NaN: not reported
+  if (has_to_land(memory, health)) return Activity::kBatteryLow;
   return Activity::kActive;
 }
 

@@ -17,6 +17,7 @@ struct HealthParameters {
   double battery_reserve = 0.2;   ///< share of full
   double recovery_s = 0.5;        ///< healthy for so long before it is active again
   double landed_height_m = 0.05;  ///< below this it is down
+  double landing_s = 0.0;         ///< a landing takes so long: who has little more left lands where it is
 };
 
 /// What the operator last wanted of a drone.

@@ -107,6 +107,24 @@ TEST(Activity, A_low_battery_lands_the_drone_and_an_unreported_one_does_not) {
   EXPECT_EQ(action_for(memory), Action::kNone);
 }
 
+TEST(Activity, Who_has_no_more_time_left_than_a_landing_takes_lands_whatever_the_reserve_is) {
+  HealthParameters health = kHealth;
+  health.battery_reserve = 0.0;
+  health.landing_s = 30.0;
+  DroneMemory memory = flying();
+  memory.energy = EnergyEstimate(120.0);
+  DroneObservation observed = seen();
+  double left_s = 120.0;
+  for (; left_s > 0.0; left_s -= kDt) {
+    observed.battery = left_s / 120.0;
+    remember(memory, observed, kDt);
+    judge(memory, health, kDt);
+    if (memory.activity == Activity::kBatteryLow) break;
+  }
+  EXPECT_GT(left_s, 36.0);
+  EXPECT_LT(left_s, 60.0);
+}
+
 TEST(Activity, Nothing_that_came_down_takes_off_again_by_itself) {
   for (const Intent intent : {Intent::kCover, Intent::kHold, Intent::kLand}) {
     DroneMemory memory = flying(intent);

@@ -9,7 +9,7 @@ namespace vigil::recording {
 
 // A parameter that is not recorded would be another one when the flight is flown again, so this breaks when there is a
 // new one: show it below, add it to Mission.msg, then correct the size.
-static_assert(sizeof(void*) != 8 || sizeof(swarm::SwarmParameters) == 600);
+static_assert(sizeof(void*) != 8 || sizeof(swarm::SwarmParameters) == 608);
 
 /// Shows every value of the controller's parameters to `visit`, in the order of vigil_msgs/msg/Mission: writer and
 /// reader go by this one list. visit() takes numbers, flags and optional numbers, visit.count() and visit.index() whole
@@ -49,6 +49,7 @@ void visit_parameters(Visit& visit, Parameters& p) {
   visit(p.health.battery_reserve);
   visit(p.health.recovery_s);
   visit(p.health.landed_height_m);
+  visit(p.health.landing_s);
   visit(p.faults.watches);
   visit(p.faults.loop.gain);
   visit.limit(p.faults.loop.proportional_per_s);
